@@ -131,15 +131,7 @@ StreamPump::Operation ExportStream::NextOperation() {
   if (making_) return nullptr;
   if (has_message_) {
     has_message_ = false;
-    StreamPump::Operation write = Write(&message_);
-    return [this, write = std::move(write), number = write_count()] {
-      const absl::Duration patience = context_.limits.export_patience;
-      SetAlarm(patience, [number, patience](ExportStream& self) {
-        self.HangUp(number, absl::DeadlineExceededError(absl::StrCat(
-                                "a piece was not taken for ", absl::FormatDuration(patience))));
-      });
-      write();
-    };
+    return WriteWithin(context_.limits.export_patience, &message_);
   }
   making_ = true;
   return [this] { SubmitNext(); };

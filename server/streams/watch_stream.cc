@@ -138,7 +138,9 @@ StreamPump::Operation WatchStream::NextOperation() {
     frames_ = nullptr;
     return [this] { AwaitFrames(); };
   }
-  return Write(&frames_->messages[begun_++]);
+  const auto* const message = &frames_->messages[begun_++];
+  if (is_live_) return Write(message);
+  return WriteWithin(context_.limits.export_patience, message);  // it holds what replays need
 }
 
 }  // namespace plumescout::server

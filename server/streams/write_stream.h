@@ -2,8 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <grpcpp/alarm.h>
 #include <grpcpp/support/server_callback.h>
 
+#include <chrono>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -12,7 +14,9 @@
 
 #include "absl/base/thread_annotations.h"
 #include "absl/status/status.h"
+#include "absl/strings/str_cat.h"
 #include "absl/synchronization/mutex.h"
+#include "absl/time/time.h"
 #include "server/base/grpc_status.h"
 #include "server/calls/active_streams.h"
 #include "server/calls/patient_attempt.h"
@@ -48,6 +52,11 @@ class WriteStream : public grpc::ServerWriteReactor<Message>,
   void OnCancel() final { End(absl::CancelledError("the caller gave up")); }
   void OnDone() final {
     context_.streams->Remove(this);
+    std::unique_ptr<grpc::Alarm> patience;  // which may be ringing, so not let go under the lock
+    {
+      absl::MutexLock lock(&mutex_);
+      patience.swap(patience_);
+    }
     LetGo();
     self_.reset();
   }
@@ -91,8 +100,41 @@ class WriteStream : public grpc::ServerWriteReactor<Message>,
     ++write_count_;
     return [this, message] { this->StartWrite(message); };
   }
-  // So far; the last of them may be under way.
-  std::int64_t write_count() const ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_) { return write_count_; }
+  // The same of a stream that holds what others may need: who does not take the message for so long
+  // is hung up on (kDeadlineExceeded).
+  StreamPump::Operation WriteWithin(absl::Duration patience, const Message* message)
+      ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_) {
+    StreamPump::Operation write = Write(message);
+    return [this, write = std::move(write), number = write_count_, patience] {
+      HangUpAfter(patience, number);
+      write();
+    };
+  }
+  bool HasEnded() ABSL_LOCKS_EXCLUDED(mutex_) {
+    absl::MutexLock lock(&mutex_);
+    return end_.has_value();
+  }
+  // gRPC is done with the stream: lets go of what it works on.
+  virtual void LetGo() = 0;
+
+  const ServiceContext& context_;
+  Visit visit_;
+  absl::Mutex mutex_;
+
+ private:
+  void HangUpAfter(absl::Duration patience, std::int64_t write) ABSL_LOCKS_EXCLUDED(mutex_) {
+    auto alarm = std::make_unique<grpc::Alarm>();
+    alarm->Set(std::chrono::system_clock::now() + absl::ToChronoMicroseconds(patience),
+               [weak = this->weak_from_this(), write, patience](bool is_due) {
+                 const auto self = weak.lock();
+                 if (!is_due || self == nullptr) return;
+                 self->HangUp(write,
+                              absl::DeadlineExceededError(absl::StrCat(
+                                  "a piece was not taken for ", absl::FormatDuration(patience))));
+               });
+    absl::MutexLock lock(&mutex_);
+    patience_.swap(alarm);  // the last one may be ringing still, and is let go outside the lock
+  }
   // Ends the stream although the caller has not taken the message of this number, on which an end
   // would wait. No effect if it has.
   void HangUp(std::int64_t write, const absl::Status& status) ABSL_LOCKS_EXCLUDED(mutex_) {
@@ -109,19 +151,6 @@ class WriteStream : public grpc::ServerWriteReactor<Message>,
     }
     Pump();
   }
-  bool has_ended() const ABSL_EXCLUSIVE_LOCKS_REQUIRED(mutex_) { return end_.has_value(); }
-  bool HasEnded() ABSL_LOCKS_EXCLUDED(mutex_) {
-    absl::MutexLock lock(&mutex_);
-    return end_.has_value();
-  }
-  // gRPC is done with the stream: lets go of what it works on.
-  virtual void LetGo() = 0;
-
-  const ServiceContext& context_;
-  Visit visit_;
-  absl::Mutex mutex_;
-
- private:
   void Begun(const absl::Status& status) ABSL_LOCKS_EXCLUDED(mutex_) {
     {
       absl::MutexLock lock(&mutex_);
@@ -149,6 +178,7 @@ class WriteStream : public grpc::ServerWriteReactor<Message>,
   bool hanging_up_ ABSL_GUARDED_BY(mutex_) = false;
   bool finished_ ABSL_GUARDED_BY(mutex_) = false;
   std::optional<absl::Status> end_ ABSL_GUARDED_BY(mutex_);
+  std::unique_ptr<grpc::Alarm> patience_ ABSL_GUARDED_BY(mutex_);  // with the last write
 };
 
 }  // namespace plumescout::server

@@ -9,6 +9,7 @@
 #include <memory>
 #include <vector>
 
+#include "absl/strings/str_cat.h"
 #include "absl/synchronization/notification.h"
 #include "tests/server/service_fixture.h"
 
@@ -197,6 +198,42 @@ TEST_F(WatchStreamTest, StrangersAndUnknownLayersAreRefused) {
   EXPECT_THAT(stranger.Finish(), Refuses(absl::StatusCode::kNotFound, "MISSION_NOT_FOUND"));
   WatchClient misnamed(*maps_, "hall");
   EXPECT_THAT(misnamed.Finish(), RefusesField("mission"));
+}
+
+// A replay holds memory of the mission, and its one place for replays.
+TEST_F(WatchStreamTest, WhoReadsNoMoreOfThePastIsHungUpOn) {
+  ServerConfig config;
+  config.limits.max_wait_s = 0.2;
+  config.limits.max_gas_readings_per_s = 0.0;
+  config.maps.publish_period_s = 0.0;
+  StartServerWithStore(config);
+  lease_ = Lease();
+  constexpr std::int64_t kReadings = 20'000;
+  Apply(RoomScan(1));
+  Apply(GasReadings(2, kReadings));
+  v1::WatchMapRequest past;
+  past.set_mission("missions/hall");
+  past.set_from_revision(1);
+  past.set_speed_ratio(1.0);
+  past.set_full_precision(true);
+  grpc::ChannelArguments small;
+  small.SetInt(GRPC_ARG_HTTP2_BDP_PROBE, 0);
+  const auto stub = v1::MapService::NewStub(grpc::CreateCustomChannel(
+      absl::StrCat("127.0.0.1:", server_->port()), grpc::InsecureChannelCredentials(), small));
+  WatchClient stalled(*stub, past);
+  const auto watch_again = [&] {
+    WatchClient other(*maps_, past);
+    const bool begun = other.Read().has_status();
+    other.Cancel();
+    return begun;
+  };
+  ASSERT_TRUE(stalled.Read().has_status());
+  EXPECT_FALSE(watch_again());
+  const absl::Time deadline = absl::Now() + absl::Seconds(60);
+  bool begun = false;
+  while (!begun && absl::Now() < deadline) begun = watch_again();
+  EXPECT_TRUE(begun);
+  EXPECT_FALSE(stalled.Finish().ok());
 }
 
 }  // namespace watch_stream_test
