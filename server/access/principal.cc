@@ -59,8 +59,10 @@ absl::StatusOr<Principal> MakePrincipal(absl::string_view name, absl::string_vie
   Principal principal;
   PLUMESCOUT_RETURN_IF_ERROR(CheckWord("name", name));
   if (!tenant.empty()) PLUMESCOUT_RETURN_IF_ERROR(CheckWord("tenant", tenant));
-  if (absl::StrContains(tenant, '/')) {
-    return absl::InvalidArgumentError(absl::StrCat("tenant \"", tenant, "\" must have no /"));
+  // It names folders.
+  if (absl::StrContains(tenant, '/') || tenant == "." || tenant == "..") {
+    return absl::InvalidArgumentError(
+        absl::StrCat("tenant \"", tenant, "\" must have no /, and not be . or .."));
   }
   PLUMESCOUT_ASSIGN_OR_RETURN(principal.role, ReadRole(role));
   if (principal.role == Role::kRobot) PLUMESCOUT_RETURN_IF_ERROR(ValidateId("name", name));

@@ -37,7 +37,9 @@ TEST(PrincipalTest, WordsOfAnotherKindAreRefused) {
     if (word.empty()) continue;
     EXPECT_TRUE(absl::IsInvalidArgument(MakePrincipal("a", "viewer", word).status())) << word;
   }
-  EXPECT_TRUE(absl::IsInvalidArgument(MakePrincipal("a", "viewer", "b/c").status()));
+  for (const char* const tenant : {"b/c", ".", ".."}) {
+    EXPECT_TRUE(absl::IsInvalidArgument(MakePrincipal("a", "viewer", tenant).status())) << tenant;
+  }
   EXPECT_EQ(MakePrincipal("a", "Admin", "").status().message(),
             "role \"Admin\" must be robot, viewer, operator or admin");
 }
