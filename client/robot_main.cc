@@ -32,7 +32,9 @@ line, in its own frame, metres and radians, with the time of its own clock:
   {"type":"pose","time_ns":0,"x_m":0,"y_m":0,"yaw_rad":0}
   {"type":"scan","time_ns":0,"start_angle_rad":-3.14,"angle_step_rad":0.0175,"max_range_m":8,
    "ranges_m":[1.5,null,8]}          (null: beam unknown; max_range_m or more: nothing was hit)
-  {"type":"gas","time_ns":0,"concentration_ppm":3.2,"stddev_ppm":0.1}       (stddev_ppm: optional)
+  {"type":"gas","time_ns":0,"concentration_ppm":3.2,"stddev_ppm":0.1,"sensor":0}
+                                     (stddev_ppm and sensor, which one of --gas-sensor: optional)
+  {"type":"status","time_ns":0,"battery_share":0.8}
   {"type":"correction","time_ns":0,"pose":{..},"anchors":[{"time_ns":0,"x_m":0,"y_m":0,"yaw_rad":0}]}
                                      (poses of before were wrong; that of this line is right)
 Scans and gas readings may carry "pose":{"x_m":..,"y_m":..,"yaw_rad":..}, the pose at which they were

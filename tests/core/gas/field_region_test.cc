@@ -102,7 +102,7 @@ TEST(FieldRegionTest, AVisitedMapIsInItToItsCorners) {
   EXPECT_EQ(&region.Within(ground), &ground);
 }
 
-// The cut is an edge of the field, as unknown cells are. With the default precisions the field
+// The cut is an edge of the field, as unknown cells are. With the precisions of [XIT] the field
 // forgets e-fold within 55 cells and the region ends at least 256 cells away; here that is 27 and
 // 128, so that the whole field can be computed as well.
 TEST(FieldRegionTest, AtTheRobotTheFieldIsThatOfTheWholeMap) {
