@@ -28,6 +28,12 @@ struct WayLeft {
   double wait_s = 0.0;  // of its stop where it stands
 };
 
+bool StandsAt(const Trajectory& way, double time_s) {
+  return std::any_of(way.waypoints.begin(), way.waypoints.end(), [time_s](const Waypoint& stop) {
+    return stop.arrival_time_s <= time_s && time_s < stop.arrival_time_s + stop.dwell_s;
+  });
+}
+
 // From `start` to the end of the robot's live plan; none if it does not follow one from there, or
 // is to stop farther on.
 std::optional<WayLeft> FindWayLeft(const RobotRecord& robot, Point2 start, std::int64_t now_ns) {
@@ -37,10 +43,13 @@ std::optional<WayLeft> FindWayLeft(const RobotRecord& robot, Point2 start, std::
   }
   const std::optional<NearestTime> nearest = FindNearest(*robot.live_trajectory, start);
   if (!nearest || !(nearest->distance_m <= kOnWay_m)) return std::nullopt;
-  // Who is on the move may begin farther on than it is, when it will have its plan.
+  // Who is on the move may begin farther on than it is, when it will have its plan. Who stands by
+  // plan leaves at the plan's time, and may know its place but nearly.
   const double gone_s = Progress_s(robot, now_ns);
-  const bool starts_ahead = PoseAt(*robot.live_trajectory, gone_s).position() != start;
-  const double begin_s = starts_ahead ? std::max(gone_s, nearest->time_s) : gone_s;
+  const Point2 place = PoseAt(*robot.live_trajectory, gone_s).position();
+  const bool stands =
+      StandsAt(*robot.live_trajectory, gone_s) && Distance_m(place, start) <= kOnWay_m;
+  const double begin_s = stands || place == start ? gone_s : std::max(gone_s, nearest->time_s);
   WayLeft left{{start}, 0.0};
   for (const Waypoint& waypoint : robot.live_trajectory->waypoints) {
     const double until_s = waypoint.arrival_time_s + waypoint.dwell_s;

@@ -161,6 +161,16 @@ TEST_F(WayLeftTest, WhoStandsByPlanStandsForWhatIsLeftOfThat) {
   EXPECT_THAT(GoOn({StraightTo(other)}).back(), Optional(::testing::DoubleNear(3.0, 1e-6)));
 }
 
+TEST_F(WayLeftTest, WhoStandsByPlanLeavesAtItsTimeIfItKnowsItsPlaceButNearly) {
+  belief_.robots["b"] = Driving("b", {{0.35, kMiddle_m}, {1.0, kMiddle_m}}, {0.35, kMiddle_m});
+  const Goal other = testing::GoalAt({42, 3}, geometry_);
+  belief_.robots["a"] = Driving("a", {here_, goal_.position}, here_, 3.0);
+  belief_.robots["a"].live_goal = goal_;
+  here_.x_m += 0.08;
+  EXPECT_THAT(GoOn({StraightTo(other)}).back(), Optional(::testing::DoubleNear(3.0, 1e-6)));
+  EXPECT_THAT(plan_.candidates.back().path, ElementsAre(here_, goal_.position));
+}
+
 TEST_F(WayLeftTest, WhoHasStrayedHasNoWayLeft) {
   OneGoesAhead();
   belief_.robots["a"].state.pose.y_m += 0.6;
