@@ -63,31 +63,6 @@ Point2 Along(Point2 from, Point2 to, double distance_m) {
   return {from.x_m + share * (to.x_m - from.x_m), from.y_m + share * (to.y_m - from.y_m)};
 }
 
-std::optional<Blockage> FindBlockage(const Belief& belief, const std::vector<Point2>& path) {
-  const GridGeometry& geometry = belief.geometry();
-  Follower follower(belief, path.front());
-  std::optional<Blockage> found;
-  double before_m = 0.0;  // the current segment
-  for (std::size_t i = std::min<std::size_t>(1, path.size() - 1); i < path.size(); ++i) {
-    const Point2 from = path[i > 0 ? i - 1 : 0];
-    double inside_m = 0.0;
-    WalkSegment(geometry, from, path[i], [&](Cell cell, double length_cells) {
-      if (!follower.CanEnter(cell)) {
-        found = {cell, Along(from, path[i], inside_m), before_m + inside_m, StateOf(belief, cell)};
-        return false;
-      }
-      inside_m += length_cells * geometry.resolution_m;
-      return true;
-    });
-    if (found) return found;
-    before_m += Distance_m(from, path[i]);
-  }
-  // It may never have left the inflated zone.
-  const Cell last = geometry.CellAt(path.back());
-  if (belief.traversable->At(last, 0) != 0) return std::nullopt;
-  return Blockage{last, path.back(), before_m, StateOf(belief, last)};
-}
-
 RejectedGoal Gone(const Goal& goal) {
   return {goal, RejectionReason::kGone,
           "no frontier of its kind is left there, or none within reach"};
@@ -195,6 +170,31 @@ absl::Status CheckIsLatest(const Belief& belief, const RobotRecord& robot, PlanI
 }
 
 }  // namespace
+
+std::optional<Blockage> FindBlockage(const Belief& belief, const std::vector<Point2>& path) {
+  const GridGeometry& geometry = belief.geometry();
+  Follower follower(belief, path.front());
+  std::optional<Blockage> found;
+  double before_m = 0.0;  // the current segment
+  for (std::size_t i = std::min<std::size_t>(1, path.size() - 1); i < path.size(); ++i) {
+    const Point2 from = path[i > 0 ? i - 1 : 0];
+    double inside_m = 0.0;
+    WalkSegment(geometry, from, path[i], [&](Cell cell, double length_cells) {
+      if (!follower.CanEnter(cell)) {
+        found = {cell, Along(from, path[i], inside_m), before_m + inside_m, StateOf(belief, cell)};
+        return false;
+      }
+      inside_m += length_cells * geometry.resolution_m;
+      return true;
+    });
+    if (found) return found;
+    before_m += Distance_m(from, path[i]);
+  }
+  // It may never have left the inflated zone.
+  const Cell last = geometry.CellAt(path.back());
+  if (belief.traversable->At(last, 0) != 0) return std::nullopt;
+  return Blockage{last, path.back(), before_m, StateOf(belief, last)};
+}
 
 absl::StatusOr<IntendedPath> RestOfPlan(const Belief& belief, const RobotId& robot, PlanId plan) {
   const auto found = belief.robots.find(robot);

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "absl/status/statusor.h"
@@ -27,19 +28,22 @@ struct IntendedPath {
 // had nowhere to go (PLAN_ENDED).
 absl::StatusOr<IntendedPath> RestOfPlan(const Belief& belief, const RobotId& robot, PlanId plan);
 
+// Where the robot cannot follow the path, by the cells that it touches, as planning does: all must
+// be traversable, but for a beginning in the inflated zone, which may lead out of it as EscapePath
+// would. REQUIRES: as CheckTrajectory.
+std::optional<Blockage> FindBlockage(const Belief& belief, const std::vector<Point2>& path);
+
 // A path of the caller's own, to a goal of this kind at its end. REQUIRES: not empty.
 IntendedPath PathTo(GoalKind kind, std::vector<Point2> vertices, const GridGeometry& geometry);
 
-// Judges the path by the cells that it touches, as planning does: all must be traversable, but for
-// a beginning in the inflated zone, which may lead out of it as EscapePath would. The goal is
-// judged from the path's first vertex: a frontier is still worth it while one of the same kind that
-// ClaimCovers is offered to this robot, for it moves as the robot sees more of it; being near is no
-// objection. If there is none it is kGone. Home is worth it while it can be reached, another place
-// while moreover nobody else claims it and it is not set aside; a site is kGone when all stops of
-// the path have been sampled meanwhile and the strategy samples none twice. Whether another goal is
-// better by now is a question for a new plan. The price is without information expected. REQUIRES:
-// the robot is known; the path has a vertex; vertices are finite and fewer than 2^30 cells apart.
-// Cost: O(cells).
+// Judges the path by FindBlockage. The goal is judged from the path's first vertex: a frontier is
+// still worth it while one of the same kind that ClaimCovers is offered to this robot, for it moves
+// as the robot sees more of it; being near is no objection. If there is none it is kGone. Home is
+// worth it while it can be reached, another place while moreover nobody else claims it and it is
+// not set aside; a site is kGone when all stops of the path have been sampled meanwhile and the
+// strategy samples none twice. Whether another goal is better by now is a question for a new plan.
+// The price is without information expected. REQUIRES: the robot is known; the path has a vertex;
+// vertices are finite and fewer than 2^30 cells apart. Cost: O(cells).
 TrajectoryVerdict CheckTrajectory(const Belief& belief, const RobotId& robot,
                                   const IntendedPath& path, const PlanningOptions& options);
 

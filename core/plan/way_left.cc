@@ -12,8 +12,10 @@
 
 #include "core/plan/cost/edge_cost.h"
 #include "core/plan/goals/travel_budget.h"
+#include "core/plan/plan_start.h"
 #include "core/plan/selection/candidate_terms.h"
 #include "core/plan/selection/choice.h"
+#include "core/plan/trajectory_check.h"
 #include "core/plan/trajectory_timing.h"
 #include "core/traffic/traffic.h"
 
@@ -28,6 +30,12 @@ struct WayLeft {
   double wait_s = 0.0;  // of its stop where it stands
 };
 
+bool StandsAt(const Trajectory& way, double time_s) {
+  return std::any_of(way.waypoints.begin(), way.waypoints.end(), [time_s](const Waypoint& stop) {
+    return stop.arrival_time_s <= time_s && time_s < stop.arrival_time_s + stop.dwell_s;
+  });
+}
+
 // From `start` to the end of the robot's live plan; none if it does not follow one from there, or
 // is to stop farther on.
 std::optional<WayLeft> FindWayLeft(const RobotRecord& robot, Point2 start, std::int64_t now_ns) {
@@ -37,10 +45,13 @@ std::optional<WayLeft> FindWayLeft(const RobotRecord& robot, Point2 start, std::
   }
   const std::optional<NearestTime> nearest = FindNearest(*robot.live_trajectory, start);
   if (!nearest || !(nearest->distance_m <= kOnWay_m)) return std::nullopt;
-  // Who is on the move may begin farther on than it is, when it will have its plan.
+  // Who is on the move may begin farther on than it is, when it will have its plan. Who stands by
+  // plan leaves at the plan's time, and may know its place but nearly.
   const double gone_s = Progress_s(robot, now_ns);
-  const bool starts_ahead = PoseAt(*robot.live_trajectory, gone_s).position() != start;
-  const double begin_s = starts_ahead ? std::max(gone_s, nearest->time_s) : gone_s;
+  const Point2 place = PoseAt(*robot.live_trajectory, gone_s).position();
+  const bool stands =
+      StandsAt(*robot.live_trajectory, gone_s) && Distance_m(place, start) <= kOnWay_m;
+  const double begin_s = stands || place == start ? gone_s : std::max(gone_s, nearest->time_s);
   WayLeft left{{start}, 0.0};
   for (const Waypoint& waypoint : robot.live_trajectory->waypoints) {
     const double until_s = waypoint.arrival_time_s + waypoint.dwell_s;
@@ -58,19 +69,32 @@ std::optional<WayLeft> FindWayLeft(const RobotRecord& robot, Point2 start, std::
   return left;
 }
 
+// The first vertex that is not in the inflated zone around obstacles.
+std::vector<Point2>::const_iterator FindOut(const Belief& belief, const std::vector<Point2>& path) {
+  return std::find_if(path.begin(), path.end(), [&belief](Point2 vertex) {
+    return belief.traversable->At(belief.geometry().CellAt(vertex), 0) != 0;
+  });
+}
+
 }  // namespace
 
 void GoOnOnWayLeft(const SearchedWays& ways, Waits& waits, Plan& plan) {
   const auto& [query, departure, problem, judge] = ways;
-  if (query.go_home || !departure.way_out.empty()) return;
+  const bool priced = query.options.selection_rule == SelectionRule::kInformationRate;
+  const bool from_margin = !departure.way_out.empty();
+  // The way out of the margin has no cost.
+  if (query.go_home || (from_margin && !priced)) return;
   const std::int64_t now_ns = query.belief.sample_time_ns;
-  const std::optional<WayLeft> left = FindWayLeft(query.robot, departure.start, now_ns);
-  if (!left || !std::isfinite(PathCost(problem.cost, left->path))) return;
+  const Point2 start = from_margin ? departure.way_out.front() : departure.start;
+  const std::optional<WayLeft> left = FindWayLeft(query.robot, start, now_ns);
+  if (!left || (from_margin && FindBlockage(query.belief, left->path))) return;
+  const auto out = from_margin ? FindOut(query.belief, left->path) : left->path.begin();
+  const std::vector<Point2> rest(out, left->path.end());
+  if (!std::isfinite(PathCost(problem.cost, rest))) return;
   const int covered = UnderWayTo(plan.candidates, query.belief, plan.robot);
   const auto index = static_cast<std::size_t>(covered);
   if (covered >= 0 && waits.waits_s[index] && *waits.waits_s[index] <= left->wait_s) return;
   // By cost alone a way that leads to nothing any more may look best.
-  const bool priced = query.options.selection_rule == SelectionRule::kInformationRate;
   if (covered < 0 && !priced) return;
 
   Trajectory trajectory = TimeTrajectory(left->path, departure.yaw_rad, query.options);
@@ -82,7 +106,8 @@ void GoOnOnWayLeft(const SearchedWays& ways, Waits& waits, Plan& plan) {
   if (on_time.FirstMeeting(trajectory)) return;
 
   const Goal goal = covered >= 0 ? plan.candidates[index].goal : *query.robot.live_goal;
-  Candidate candidate = MakeCandidate(goal, left->path, PathSource::kTree, judge);
+  Candidate candidate = MakeCandidate(goal, rest, PathSource::kTree, judge);
+  PutBefore({left->path.begin(), out}, candidate);
   candidate.duration_s = duration_s;
   Plan affordable;
   affordable.candidates = {candidate};

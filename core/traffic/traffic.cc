@@ -23,6 +23,10 @@ std::size_t StepsIn(double time_s) { return static_cast<std::size_t>(std::ceil(t
 
 // A way that should have ended so long ago, beside its own duration, is driven no more.
 constexpr double kPatience_s = 30.0;
+// The plan of a robot that asks on its way begins up to so far ahead of its latest pose, and it may
+// be so long until a pose comes from there: answers and poses take their time.
+constexpr double kSetsOut_m = 2.0;
+constexpr double kSetsOut_s = 2.0;
 constexpr double kSecondsPerNanosecond = 1e-9;
 
 // The most steps that another robot is early by.
@@ -81,8 +85,12 @@ double Reach_m(const RobotState& a, const RobotState& b, double clearance_m) {
 bool IsOnItsWay(const RobotRecord& record, std::int64_t now_ns) {
   const Trajectory* const way = record.live_trajectory.get();
   if (way == nullptr || way->waypoints.empty()) return false;
-  return Elapsed_s(record, now_ns) <= 2.0 * way->duration_s + kPatience_s &&
-         FindNearest(*way, record.state.pose.position())->distance_m <= kOffTrajectory_m;
+  const double elapsed_s = Elapsed_s(record, now_ns);
+  const NearestTime nearest = *FindNearest(*way, record.state.pose.position());
+  const bool at_start = nearest.time_s <= way->waypoints.front().dwell_s;
+  const bool may_set_out = at_start && elapsed_s < kSetsOut_s;
+  return elapsed_s <= 2.0 * way->duration_s + kPatience_s &&
+         nearest.distance_m <= (may_set_out ? kSetsOut_m : kOffTrajectory_m);
 }
 
 double Lateness_s(const RobotRecord& record, std::int64_t now_ns) {

@@ -129,8 +129,8 @@ class Traffic {
 // Has the robot stand for so long before it leaves. REQUIRES: waypoints not empty, wait_s >= 0.
 void WaitAtStart(double wait_s, Trajectory& trajectory);
 
-// Whether a robot follows its live plan: it is near that, and should not have ended it long ago.
-// REQUIRES: a pose.
+// Whether a robot follows its live plan: it is near that, or, with a new one, may be about to come
+// to where that begins, and should not have ended it long ago. REQUIRES: a pose.
 bool IsOnItsWay(const RobotRecord& record, std::int64_t now_ns);
 
 // How far along its live plan a robot is, in seconds of the trajectory: by its latest pose, for it

@@ -88,7 +88,7 @@ TEST(PromisedReadings, AreNoneOfWhoIsAloneStandsIsSilentOrStrayed) {
   EXPECT_TRUE(Promised(belief).empty()) << "its own plan";
   AddRobot("b", {{1.0, 1.0}, {6.0, 1.0}}, belief);
   Belief strayed = belief;
-  strayed.robots["b"].state.pose.y_m = 2.0;
+  strayed.robots["b"].state.pose = {3.0, 2.0, 0.0};
   EXPECT_TRUE(Promised(strayed).empty());
   Belief silent = belief;
   silent.robots["b"].state.silent = true;

@@ -78,7 +78,7 @@ class WayLeftTest : public ::testing::Test {
     const EdgeCost cost(information_, CostKind::kUcb, 0.0);
     const std::vector<Goal> goals = {goal_};
     const StopFn never = NeverStop();
-    const Departure departure = {{}, here_, 0.0};
+    const Departure departure = {way_out_, here_, 0.0};
     const GoalQuery query = {
         belief_, belief_.robots.at("a"), geometry_.CellAt(here_), reachable_, options_, go_home_};
     std::optional<Waits> waits = FindWaits(belief_, 0.0, options_, plan_);
@@ -93,6 +93,7 @@ class WayLeftTest : public ::testing::Test {
   GridGeometry geometry_{0.0, 0.0, 0.1, 120, 15};
   Point2 here_{4.05, kMiddle_m};
   Goal goal_ = testing::GoalAt({100, 7}, geometry_);
+  std::vector<Point2> way_out_;
   Belief belief_;
   Grid<std::uint8_t> reachable_;
   Grid<float> mean_ppm_;
@@ -159,6 +160,35 @@ TEST_F(WayLeftTest, WhoStandsByPlanStandsForWhatIsLeftOfThat) {
   belief_.robots["a"] = Driving("a", {here_, goal_.position}, here_, 3.0);
   belief_.robots["a"].live_goal = goal_;
   EXPECT_THAT(GoOn({StraightTo(other)}).back(), Optional(::testing::DoubleNear(3.0, 1e-6)));
+}
+
+TEST_F(WayLeftTest, WhoStandsByPlanLeavesAtItsTimeIfItKnowsItsPlaceButNearly) {
+  belief_.robots["b"] = Driving("b", {{0.35, kMiddle_m}, {1.0, kMiddle_m}}, {0.35, kMiddle_m});
+  const Goal other = testing::GoalAt({42, 3}, geometry_);
+  belief_.robots["a"] = Driving("a", {here_, goal_.position}, here_, 3.0);
+  belief_.robots["a"].live_goal = goal_;
+  here_.x_m += 0.08;
+  EXPECT_THAT(GoOn({StraightTo(other)}).back(), Optional(::testing::DoubleNear(3.0, 1e-6)));
+  EXPECT_THAT(plan_.candidates.back().path, ElementsAre(here_, goal_.position));
+}
+
+TEST_F(WayLeftTest, WhoStandsNearAnObstacleGoesOnAsItWasTo) {
+  belief_.robots["b"] = Driving("b", {{0.35, kMiddle_m}, {1.0, kMiddle_m}}, {0.35, kMiddle_m});
+  const Goal other = testing::GoalAt({42, 3}, geometry_);
+  const Point2 bend = {6.05, kMiddle_m + 0.1};
+  belief_.robots["a"] = Driving("a", {here_, bend, goal_.position}, here_, 3.0);
+  belief_.robots["a"].live_goal = goal_;
+  belief_.occupancy = std::make_shared<const Grid<CellState>>(geometry_, CellState::kFree);
+  Grid<std::uint8_t> traversable(geometry_, 1);
+  for (int y = 0; y < geometry_.height; ++y) traversable[Cell{40, y}] = 0;
+  belief_.traversable = std::make_shared<const Grid<std::uint8_t>>(traversable);
+  way_out_ = {here_};
+  EXPECT_THAT(GoOn({StraightTo(other)}).back(), Optional(::testing::DoubleNear(3.0, 1e-6)));
+  EXPECT_THAT(plan_.candidates.back().path, ElementsAre(here_, bend, goal_.position));
+
+  for (int y = 0; y < geometry_.height; ++y) traversable[Cell{80, y}] = 0;
+  belief_.traversable = std::make_shared<const Grid<std::uint8_t>>(traversable);
+  EXPECT_THAT(GoOn({StraightTo(other)}), SizeIs(1)) << "shut farther on";
 }
 
 TEST_F(WayLeftTest, WhoHasStrayedHasNoWayLeft) {

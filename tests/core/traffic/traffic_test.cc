@@ -191,6 +191,19 @@ TEST(Traffic, WhoStrayedStandsWhereItIs) {
   EXPECT_FALSE(TrafficFor(way, stuck).LeastWait_s(way).has_value()) << "it does not come";
 }
 
+TEST(Traffic, APlanMayBeginFartherOnThanTheRobotIs) {
+  const Trajectory way = Along({{0.0, 0.0}, {10.0, 0.0}});
+  RobotRecord coming = Driving("b", Along({{3.0, -3.0}, {3.0, 9.0}}));
+  coming.state.pose = {3.0, -4.5, 0.0};
+  EXPECT_TRUE(IsOnItsWay(coming, kNow_ns));
+  EXPECT_TRUE(TrafficFor(way, coming).FirstMeeting(way).has_value());
+  EXPECT_FALSE(IsOnItsWay(coming, kNow_ns + 3 * kSecond_ns)) << "it does not come";
+  coming.state.pose = {3.0, -5.5, 0.0};
+  EXPECT_FALSE(IsOnItsWay(coming, kNow_ns));
+  coming.state.pose = {4.0, -1.5, 0.0};
+  EXPECT_FALSE(IsOnItsWay(coming, kNow_ns)) << "it has set out, and strayed";
+}
+
 TEST(Traffic, OnTimeIsAnotherQuestion) {
   const Trajectory way = Along({{0.0, 0.0}, {6.0, 0.0}});
   const RobotRecord ahead = Driving("b", Along({{3.0, -1.8}, {3.0, 9.0}}));  // 1.2 s before
