@@ -67,6 +67,11 @@ absl::Status LeaseTable::Check(const RobotId& robot, std::int64_t token) const {
   return book_.Check(robot, token);
 }
 
+absl::Status LeaseTable::CheckNotReleased(const RobotId& robot, std::int64_t token) const {
+  const absl::Status status = Check(robot, token);
+  return absl::IsNotFound(status) ? absl::OkStatus() : status;
+}
+
 absl::Status LeaseTable::Use(const RobotId& robot, std::int64_t token) {
   absl::MutexLock lock(&mutex_);
   return book_.Use(robot, token, ToNanoseconds(clock_()));

@@ -44,6 +44,9 @@ class LeaseTable final : public Leases {
 
   // As LeaseBook.
   absl::Status Check(const RobotId& robot, std::int64_t token) const;
+  // LEASE_SUPERSEDED if the lease of this token was released, or is not the newest any more: what
+  // was under way then comes too late.
+  absl::Status CheckNotReleased(const RobotId& robot, std::int64_t token) const;
   // Counts as a use. ROBOT_NOT_FOUND; LEASE_SUPERSEDED unless `token` is the newest.
   absl::Status Use(const RobotId& robot, std::int64_t token);
 

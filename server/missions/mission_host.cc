@@ -28,8 +28,7 @@ std::unique_ptr<Mission> AbandonedWith(std::shared_ptr<const std::atomic<bool>> 
 }
 
 EpochHabit HabitOf(const MissionJournal& journal, const JournalTail& tail) {
-  if (!journal.is_durable()) return {};
-  return {kEventsPerEpoch, tail.last_epoch};
+  return journal.is_durable() ? EpochHabit{kEventsPerEpoch, tail.last_epoch} : EpochHabit{};
 }
 
 std::unique_ptr<SnapshotTaker> MakeTaker(const std::shared_ptr<MissionJournal>& journal,
@@ -99,8 +98,8 @@ void MissionHost::RecoverLeases(const StandingRecord& standing) {
     if (!token.ok()) continue;
     leases_.Grant(robot, *token);
     const auto released = standing.released_leases.find(robot);
-    if (released != standing.released_leases.end() && released->second == *token)
-      leases_.Release(robot, token.value()).IgnoreError();
+    const bool is_released = released != standing.released_leases.end();
+    if (is_released && released->second == *token) leases_.Release(robot, *token).IgnoreError();
   }
 }
 
@@ -131,7 +130,7 @@ IngestResult MissionHost::Ingest(MissionWriter& writer, const RobotId& robot,
   };
   if (const absl::Status writable = CheckMayWrite(); !writable.ok()) return refuse(writable);
   absl::Status leased = conduct.CheckLease(robot, lease_token);
-  leased.Update(leases_.Check(robot, lease_token));  // it may have been released since
+  leased.Update(leases_.CheckNotReleased(robot, lease_token));  // while the batch waited
   if (!leased.ok()) return refuse(leased);
   const std::int64_t in_force_ns = writer.mission().StateOf(robot).value().clock_offset_ns;
   const auto [offset_ns, was_set] = robot_clocks_.Reckon(robot, times, in_force_ns);

@@ -115,8 +115,8 @@ void PlanJob::Commit(Plan plan) {
         const absl::Status allowed = self->parts_.host->CheckMayPlan();
         if (!allowed.ok()) return self->Finish(allowed);
         // It may have been released while the search went on.
-        const absl::Status leased =
-            self->parts_.host->leases().Check(plan.robot, self->parts_.order.lease_token);
+        const absl::Status leased = self->parts_.host->leases().CheckNotReleased(
+            plan.robot, self->parts_.order.lease_token);
         if (!leased.ok()) return self->Finish(leased);
         const auto id = writer.conduct().Commit(plan, self->parts_.order.lease_token);
         self->EndStage(Stage::kCommit);

@@ -217,7 +217,7 @@ absl::Status PlanningService::Report(const v1::ReportProgressRequest& request,
   const auto run = [host, report, token, response](const std::shared_ptr<UnaryCall>& runner) {
     return PostFor(runner, *host, [host, report, token, response, runner](MissionWriter& writer) {
       absl::Status allowed = host->CheckMayWrite();
-      allowed.Update(host->leases().Check(report.robot, token));
+      allowed.Update(host->leases().CheckNotReleased(report.robot, token));
       if (!allowed.ok()) return runner->Answer(allowed);
       const auto revision = writer.conduct().Report(report, token);
       if (revision.ok()) response->set_revision(*revision);

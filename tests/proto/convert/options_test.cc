@@ -22,47 +22,53 @@ using google::protobuf::FieldDescriptor;
 using google::protobuf::Message;
 using google::protobuf::util::MessageDifferencer;
 
+PlanningOptions UnlikePlanning() {
+  PlanningOptions planning;
+  planning.strategy = "xit_f";
+  planning.goal_policy = GoalPolicy::kOccupancyOnly;
+  planning.cost = CostKind::kEuclidean;
+  planning.paths = PathKind::kBitStar;
+  planning.goal_vertices = false;
+  planning.informed_heuristic = true;
+  planning.straighten = false;
+  planning.reading_rate_hz = 4.0;
+  planning.commitment_margin_share = 0.25;
+  planning.yield_to_robots = false;
+  planning.robot_clearance_m = 0.5;
+  planning.anticipate_robots = false;
+  planning.balanced_areas = true;
+  planning.team_replan_period_s = 2.5;
+  planning.selection_rule = SelectionRule::kMeanUcb;
+  planning.sampling = SamplingKind::kIid;
+  planning.sample_count = 77;
+  planning.grid_guard = false;
+  planning.max_acceleration_mps2 = 0.5;
+  planning.max_turn_rate_rad_per_s = 1.5;
+  planning.travel_budget_m = 250.0;
+  planning.return_margin_share = 0.25;
+  planning.return_home = true;
+  planning.planning_latency_s = 0.75;
+  planning.max_connection_radius_m = 7.5;
+  planning.unseen_information_nats = 12.0;
+  planning.sites = {Rectangle{{-1.0, 2.0}, {3.0, 8.0}},
+                    2.0,
+                    SamplingReward::kConcentrationPerTime,
+                    false,
+                    3,
+                    12,
+                    7,
+                    30.0,
+                    4,
+                    5};
+  return planning;
+}
+
 MissionOptions Unlike() {
   MissionOptions options;
   options.occupancy = {0.2, 0.3, 0.2, 0.7, 1.0, -0.5, 4.0, 50.0, 10'000};
   options.gas = {1.0, 2.0, 0.01, 3.0, 60.0, 2, 5.0, 0.1};
   options.frontier = {9, 6, 0.5, 0.25, 20.0, 3.0, 4.0, WgfdScope::kLocal};
-  options.planning.strategy = "xit_f";
-  options.planning.goal_policy = GoalPolicy::kOccupancyOnly;
-  options.planning.cost = CostKind::kEuclidean;
-  options.planning.paths = PathKind::kBitStar;
-  options.planning.goal_vertices = false;
-  options.planning.informed_heuristic = true;
-  options.planning.straighten = false;
-  options.planning.reading_rate_hz = 4.0;
-  options.planning.commitment_margin_share = 0.25;
-  options.planning.yield_to_robots = false;
-  options.planning.robot_clearance_m = 0.5;
-  options.planning.anticipate_robots = false;
-  options.planning.balanced_areas = true;
-  options.planning.team_replan_period_s = 2.5;
-  options.planning.selection_rule = SelectionRule::kMeanUcb;
-  options.planning.sampling = SamplingKind::kIid;
-  options.planning.sample_count = 77;
-  options.planning.grid_guard = false;
-  options.planning.max_acceleration_mps2 = 0.5;
-  options.planning.max_turn_rate_rad_per_s = 1.5;
-  options.planning.travel_budget_m = 250.0;
-  options.planning.return_margin_share = 0.25;
-  options.planning.return_home = true;
-  options.planning.planning_latency_s = 0.75;
-  options.planning.max_connection_radius_m = 7.5;
-  options.planning.unseen_information_nats = 12.0;
-  options.planning.sites = {Rectangle{{-1.0, 2.0}, {3.0, 8.0}},
-                            2.0,
-                            SamplingReward::kConcentrationPerTime,
-                            false,
-                            3,
-                            12,
-                            7,
-                            30.0,
-                            4,
-                            5};
+  options.planning = UnlikePlanning();
   options.max_robot_count = 3;
   options.objective = {ObjectiveKind::kFindSources, 12.5, 0.99, 0.5, 900.0};
   options.robot_silence_s = 12.5;
