@@ -123,7 +123,7 @@ void IngestSession::Run() {
     if (stopping()) return;
     NoteEnded(status);
     status = Recover(status);
-    if (IsFinal(status)) {
+    if (IsFinal(status) || (stream_opened_ && absl::IsNotFound(status))) {
       absl::MutexLock lock(&mutex_);
       health_ = status;
       return;
@@ -135,7 +135,9 @@ void IngestSession::Run() {
 // Does what can be done about the end of a stream. Whatever is left may pass by itself: a server
 // that is down, recovers or has no room on its disk is tried for ever.
 absl::Status IngestSession::Recover(const absl::Status& ended) {
-  if (absl::IsNotFound(ended)) return Rejoin();
+  // A server that restarts breaks the link. One that ends an open stream so was told to, by whoever
+  // removed the robot or deleted the mission: it stays away.
+  if (absl::IsNotFound(ended)) return stream_opened_ ? ended : Rejoin();
   if (ErrorReason(ended) == kStoreRolledBack) GoBack(ended);
   if (ErrorReason(ended) == kLeaseSuperseded) return Reclaim(ended);
   return ended;

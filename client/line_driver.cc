@@ -54,9 +54,18 @@ std::optional<PoseCorrection> LineDriver::TakeCorrection() {
 }
 
 absl::Status LineDriver::Drive(const Twist& twist) {
-  const std::string line = FormatTwistLine(twist);
+  const std::int64_t unplaced_ns = now_ns_ - pose_time_ns_;
+  const bool knows_place = unplaced_ns <= absl::ToInt64Nanoseconds(options_.pose_patience);
+  const std::string line = FormatTwistLine(knows_place ? twist : Twist{});
+  const absl::Time deadline = absl::Now() + options_.patience;
   std::size_t written = 0;
   while (written < line.size()) {
+    // A pipe that has room takes a whole line.
+    pollfd output{.fd = options_.output_fd, .events = POLLOUT, .revents = 0};
+    const absl::Duration left = std::max(deadline - absl::Now(), absl::ZeroDuration());
+    const int ready = poll(&output, 1, static_cast<int>(absl::ToInt64Milliseconds(left)));
+    if (ready < 0 && errno == EINTR) continue;
+    if (ready == 0) return absl::UnavailableError("the robot program does not read its commands");
     const ssize_t count = write(options_.output_fd, line.data() + written, line.size() - written);
     if (count < 0 && errno == EINTR) continue;
     if (count < 0) return absl::UnavailableError("the robot program takes no commands any more");
@@ -102,6 +111,7 @@ absl::Status LineDriver::Digest(RobotLine line) {
   // back goes on from there.
   const bool was_set_back = line.time_ns < now_ns_ - kClockStep_ns;
   now_ns_ = was_set_back ? line.time_ns : std::max(now_ns_, line.time_ns);
+  pose_time_ns_ = line.pose.has_value() ? now_ns_ : std::min(pose_time_ns_, now_ns_);
   if (auto* scan = std::get_if<Scan>(&line.reading)) {
     scan_ = {.time_ns = line.time_ns, .pose = *pose_, .reading = std::move(*scan)};
   } else if (const auto* gas = std::get_if<GasReading>(&line.reading)) {

@@ -18,8 +18,10 @@ namespace plumescout::client {
 struct LineDriverOptions {
   int input_fd = 0;   // lines of the robot program
   int output_fd = 1;  // lines to it
-  // Silence of the robot program for this long is an error.
+  // Silence of the robot program for this long is an error, and so is not reading its commands.
   absl::Duration patience = absl::Seconds(10);
+  // Without a pose for so long, by the lines' clock, the robot is told to stand.
+  absl::Duration pose_patience = absl::Seconds(1);
   // Told of lines that cannot be read; they are passed over. May be empty.
   std::function<void(const absl::Status&)> on_bad_line;
 };
@@ -73,6 +75,7 @@ class LineDriver final : public RobotDriver {
   std::string buffer_;  // read, not yet a line
   std::int64_t now_ns_ = 0;
   std::optional<Pose2> pose_;
+  std::int64_t pose_time_ns_ = 0;
   std::optional<LineSample<Scan>> scan_;
   std::optional<LineSample<GasReading>> gas_;
   std::deque<PoseCorrection> corrections_;  // each changes poses that the one before left

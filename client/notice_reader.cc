@@ -25,6 +25,9 @@ void NoticeReader::Poll(const RobotSession& session, absl::Time now) {
 }
 
 void NoticeReader::Open(const RobotSession& session, absl::Time now) {
+  // What still holds is told again. Numbers of plans may have begun anew.
+  invalidated_.reset();
+  assigned_ = 0;
   absl::StatusOr<std::unique_ptr<RobotWatch>> watch = client_.WatchRobot(session);
   if (!watch.ok()) return Break(watch.status(), now);
   watch_ = *std::move(watch);

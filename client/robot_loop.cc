@@ -50,6 +50,7 @@ RobotLoop::RobotLoop(PlannerClient& client, RobotDriver& driver, const RobotLoop
 absl::StatusOr<RobotResult> RobotLoop::Run(const StopFn& stop) {
   stop_ = stop;
   PLUMESCOUT_RETURN_IF_ERROR(Validate(options_));
+  PLUMESCOUT_RETURN_IF_ERROR(driver_.Drive({}));  // whatever a former life told the robot
   PLUMESCOUT_RETURN_IF_ERROR(OpenLogOnDisk());
   PLUMESCOUT_RETURN_IF_ERROR(JoinMission());
   if (!over_) {
@@ -97,16 +98,16 @@ void RobotLoop::StartSensing() {
   start_ns_ = driver_.now_ns();
   last_tick_ns_ = start_ns_ - 1;
   last_position_ = driver_.pose().position();
+  const auto join_again = [this] {
+    Participation participation = options_.participation;
+    participation.take_over = false;
+    return Join(client_, participation);
+  };
   IngestCallbacks callbacks{
-      .rejoin = [this] { return Join(client_, options_.participation); },
+      .rejoin = join_again,
       .on_rejected = [this](const ObservationRejected& r) { observer_.OnRejected(r); },
       .on_link = [this](const absl::Status& status) { observer_.OnLink(status); },
-      .reclaim =
-          [this] {
-            Participation participation = options_.participation;
-            participation.take_over = false;
-            return Join(client_, participation);
-          },
+      .reclaim = join_again,
       .on_rolled_back =
           [this](std::int64_t applied_sequence, std::int64_t forgotten) {
             observer_.OnRolledBack(applied_sequence, forgotten);
@@ -273,8 +274,7 @@ absl::Status RobotLoop::EndLeg(ProgressOutcome outcome) {
 // it, nor against what the robot was told; nor where it waits for others, who reckon with it there.
 bool RobotLoop::WantsBetterPlan() const {
   const double gone_s = SecondsSince(leg_->begun_ns);
-  const double period_s = options_.replan_period_s.value_or(leg_->replan_after_s);
-  const bool pays = period_s > 0.0 && gone_s >= period_s &&
+  const bool pays = leg_->replan_after_s > 0.0 && gone_s >= leg_->replan_after_s &&
                     leg_->trajectory.duration_s - gone_s >= kWorthAnotherPlan_s;
   return pays && !leg_->homeward && !leg_->motion->standing() && !leg_->motion->done() &&
          !notices_.standing().paused && !GoesOnWithoutLink();
@@ -383,7 +383,7 @@ absl::Status RobotLoop::Depart(const Plan& plan) {
       .yaw_rad = driver_.pose().yaw_rad,
       .patience_ns = ToNanoseconds(std::max(kStuck_s, kStuckShare * plan.trajectory.duration_s)),
       .homeward = asked_homeward_,
-      .replan_after_s = plan.replan_after_s};
+      .replan_after_s = options_.replan_period_s.value_or(plan.replan_after_s)};
   leg_->left_m = LengthOf_m(leg_->motion->PathAhead(driver_.pose()));
   return absl::OkStatus();
 }

@@ -70,7 +70,7 @@ class RobotLoop {
     std::int64_t patience_ns = 0;  // with no progress
     bool stuck = false;
     bool homeward = false;        // the robot knew when it asked that it is ordered home
-    double replan_after_s = 0.0;  // as the plan says
+    double replan_after_s = 0.0;  // 0: not on the way
   };
 
   absl::Status OpenLogOnDisk();

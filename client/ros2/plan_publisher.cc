@@ -41,16 +41,20 @@ absl::StatusOr<std::unique_ptr<PlanPublisher>> PlanPublisher::Advertise(
   return publisher;
 }
 
-absl::Status PlanPublisher::PublishPlan(const Plan& plan, std::int64_t time_ns) {
+absl::Status PlanPublisher::PublishPlan(const Plan& plan, const Pose2& pose, std::int64_t time_ns) {
   const ViewPoint view{{ros::ToTime(time_ns), options_.map_frame}, options_.frame};
   if (path_) {
     PLUMESCOUT_RETURN_IF_ERROR(node_.Publish(*path_, ToPath(plan.trajectory, view)));
   }
-  if (plan.trajectory.waypoints.empty()) return absl::OkStatus();
+  if (plan.trajectory.waypoints.empty() || !(plan.trajectory.duration_s > 0.0)) {
+    return std::exchange(has_goal_, false) ? PublishGoal(pose, time_ns) : absl::OkStatus();
+  }
+  has_goal_ = true;
   return PublishGoal(InRobot(options_.frame, plan.trajectory.waypoints.back().pose), time_ns);
 }
 
 absl::Status PlanPublisher::PublishStop(const Pose2& pose, std::int64_t time_ns) {
+  has_goal_ = false;
   if (path_) {
     const ros::Path none{.header = {ros::ToTime(time_ns), options_.map_frame}};
     PLUMESCOUT_RETURN_IF_ERROR(node_.Publish(*path_, none));

@@ -49,9 +49,10 @@ class PlanPublisher {
   static absl::StatusOr<std::unique_ptr<PlanPublisher>> Advertise(
       DdsNode& node, const PlanPublisherOptions& options);
 
-  // Stamped with a time of the robot's clock.
-  absl::Status PublishPlan(const Plan& plan, std::int64_t time_ns);
-  // The plan is not to be driven on by who follows it; the robot is at `pose`, of its own frame.
+  // Stamped with a time of the robot's clock. The robot is at `pose`, of its own frame: where the
+  // plan is to stay, that takes the place of the goal of the one before.
+  absl::Status PublishPlan(const Plan& plan, const Pose2& pose, std::int64_t time_ns);
+  // The plan is not to be driven on by who follows it.
   absl::Status PublishStop(const Pose2& pose, std::int64_t time_ns);
   absl::Status PublishVelocity(const Twist& twist, std::int64_t time_ns);
 
@@ -65,6 +66,7 @@ class PlanPublisher {
   std::optional<int> velocity_;
   std::optional<int> path_;
   std::optional<int> goal_;
+  bool has_goal_ = false;  // who drives by it has one
 };
 
 }  // namespace plumescout::client

@@ -116,7 +116,8 @@ class PlanTeller final : public RobotNarrator {
 
   void OnPlan(const PlanArrival& arrival) override {
     RobotNarrator::OnPlan(arrival);
-    Check(robot_.plan_publisher().PublishPlan(arrival.plan, arrival.time_ns));
+    const Pose2 pose = robot_.driver().pose();
+    Check(robot_.plan_publisher().PublishPlan(arrival.plan, pose, arrival.time_ns));
   }
   void OnReport(PlanId plan, ProgressOutcome outcome) override {
     RobotNarrator::OnReport(plan, outcome);

@@ -6,15 +6,19 @@
 #include <cstdint>
 
 #include "core/frontier/gas_frontier.h"
+#include "core/grid/escape.h"
 #include "core/grid/flood.h"
 
 namespace plumescout {
 
 std::vector<Cell> PlacesOfRobots(const Belief& belief) {
   std::vector<Cell> cells;
+  // Who stands in the inflated zone may leave it, as for a plan.
   const auto add = [&](Point2 place) {
     const Cell cell = belief.geometry().CellAt(place);
-    if (belief.geometry().Contains(cell)) cells.push_back(cell);
+    if (!belief.geometry().Contains(cell)) return;
+    const std::vector<Cell> way = EscapePath(*belief.occupancy, *belief.traversable, cell);
+    cells.push_back(way.empty() ? cell : way.back());
   };
   for (const auto& [id, record] : belief.robots) {
     if (record.state.has_pose) add(record.state.pose.position());

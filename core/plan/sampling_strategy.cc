@@ -88,7 +88,6 @@ absl::StatusOr<plumescout::Plan> SamplingStrategy::Plan(const Belief& belief,
   const PlanRequest request = WithOrders(belief, asked);
   if (request.go_home) return home_->Plan(belief, request, stop, improved);
   PLUMESCOUT_ASSIGN_OR_RETURN(PlanStart start, BeginPlan(belief, request, options_));
-  PLUMESCOUT_RETURN_IF_ERROR(CheckInside(request.robot, start.pose.position()));
   if (!start.departure) {
     start.plan.explanation = Explain(start.plan, options_);
     return std::move(start.plan);
@@ -147,6 +146,9 @@ absl::Status SamplingStrategy::PlanFrom(const Belief& belief, const StopFn& stop
   PLUMESCOUT_ASSIGN_OR_RETURN(const SamplingChoice choice,
                               rule_->Choose({query, departure.start, sites, plan.seed, stop}));
   if (stop()) return StoppedBeforeAnyPath();
+  if (!choice.errands.empty()) {
+    PLUMESCOUT_RETURN_IF_ERROR(CheckInside(plan.robot, start.pose.position()));
+  }
   plan.rejected = sites.rejected;
   const ErrandPricer pricer(belief, options_);
   for (const Errand& errand : choice.errands) {

@@ -37,6 +37,14 @@ double Elapsed_s(const RobotRecord& record, std::int64_t now_ns) {
          static_cast<double>(record.live_arrival_ns - now_ns) * kSecondsPerNanosecond;
 }
 
+// For so long beyond the time in which poses come as a rule.
+double Unheard_s(const RobotRecord& record, std::int64_t now_ns) {
+  constexpr double kPosesCome_s = 1.0;
+  if (record.heard_ns == 0) return 0.0;
+  const double unheard_s = static_cast<double>(now_ns - record.heard_ns) * kSecondsPerNanosecond;
+  return std::clamp(unheard_s - kPosesCome_s, 0.0, Traffic::kHorizon_s);
+}
+
 // By then who looks its way has mapped its body, which nobody masks since it is silent.
 bool IsGone(const RobotRecord& record, std::int64_t now_ns) {
   const double unheard_s = static_cast<double>(now_ns - record.heard_ns) * kSecondsPerNanosecond;
@@ -135,6 +143,7 @@ Traffic::Traffic(const std::map<RobotId, RobotRecord>& robots, const RobotId& ro
     if (id == robot || !record.state.has_pose || IsGone(record, now_ns)) continue;
     Other other{id, Reach_m(self_, record.state, clearance_m), {record.state.pose.position()}};
     if (IsOnItsWay(record, now_ns)) {
+      other.unheard_s = Unheard_s(record, now_ns);
       GoOn(*record.live_trajectory, Progress_s(record, now_ns), other);
     }
     other.around = Around(other.places);
@@ -143,7 +152,7 @@ Traffic::Traffic(const std::map<RobotId, RobotRecord>& robots, const RobotId& ro
 }
 
 void Traffic::GoOn(const Trajectory& way, double from_s, Other& other) {
-  const std::size_t last = StepsIn(kHorizon_s) + MostEarly();
+  const std::size_t last = StepsIn(kHorizon_s + other.unheard_s) + MostEarly();
   for (std::size_t k = 1; k <= last; ++k) {
     other.places.push_back(PoseAt(way, from_s + kStep_s * static_cast<double>(k)).position());
   }
@@ -248,7 +257,8 @@ std::optional<std::size_t> Traffic::MeetingStep(const Other& other, const Steps&
     const double time_s = kStep_s * static_cast<double>(k);
     // Who is late now is where it was to be a while ago.
     const std::size_t late = on_time_ ? 0 : StepsIn(kLate_s + kLateShare * time_s);
-    const std::size_t early = on_time_ ? 0 : StepsIn(kEarly_s + kEarlyShare * time_s);
+    const double early_s = other.unheard_s + (on_time_ ? 0.0 : kEarly_s + kEarlyShare * time_s);
+    const std::size_t early = StepsIn(early_s);
     double nearest_m2 = SquaredDistance_m2(mine, place(k));
     for (std::size_t j = k - std::min(k, late); j <= k + early; ++j) {
       nearest_m2 = std::min(nearest_m2, SquaredDistance_m2(mine, place(j)));

@@ -46,10 +46,11 @@ inline constexpr double kOffTrajectory_m = 0.5;
 // changed for another robot, and who comes later waits, goes elsewhere or stays.
 //
 // A robot is early or late by a little, and by more the farther ahead: it is reckoned with at every
-// place of its way from 0.5 s + 5 % before to 1 s + 10 % after its time there. Who has strayed from
-// its way, or should have ended it long ago, stands where it is. So does who is silent, for
-// kSilentBody_s after it was last heard of: then beams have met its body, if it is there. Beyond
-// kHorizon_s nothing is foreseen. Steps are made for robots of up to 2 m/s.
+// place of its way from 0.5 s + 5 % before to 1 s + 10 % after its time there, and from earlier by
+// as long as it was not heard of: it may have driven on since. Who has strayed from its way, or
+// should have ended it long ago, stands where it is. So does who is silent, for kSilentBody_s after
+// it was last heard of: then beams have met its body, if it is there. Beyond kHorizon_s nothing is
+// foreseen. Steps are made for robots of up to 2 m/s.
 class Traffic {
  public:
   static constexpr double kHorizon_s = 30.0;
@@ -94,6 +95,7 @@ class Traffic {
     RobotId robot;
     double reach_m = 0.0;  // Reach_m
     std::vector<Point2> places;
+    double unheard_s = 0.0;  // it may be as much farther on
     double fastest_m = 0.0;  // in one step
     Rectangle around = {};   // all places
   };

@@ -266,5 +266,17 @@ TEST_F(IngestSessionTest, ManyThreadsMayAppendAtOnce) {
   EXPECT_EQ(ReceivedNumbers(), Range(1, kThreads * kEach));
 }
 
+TEST_F(IngestSessionTest, WhoIsRemovedWhileItsStreamIsOpenStaysAway) {
+  Start();
+  Append(1);
+  ASSERT_TRUE(WaitForAll().ok());
+  ASSERT_TRUE(server_.RemoveRobot("m", "r", 0, /*force=*/true).ok());
+  Append(1);
+  const absl::Status status = WaitForAll();
+  EXPECT_TRUE(absl::IsNotFound(status)) << status;
+  EXPECT_TRUE(absl::IsNotFound(session_->health())) << session_->health();
+  EXPECT_EQ(ReceivedNumbers(), Range(1, 1));
+}
+
 }  // namespace ingest_session_test
 }  // namespace plumescout::client

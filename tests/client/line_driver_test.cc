@@ -173,6 +173,28 @@ TEST_F(LineDriverTest, CommandsAreLines) {
   EXPECT_EQ(Heard(), FormatTwistLine({.forward_mps = 0.5}));
 }
 
+TEST_F(LineDriverTest, WithoutAPoseForASecondTheRobotIsToldToStand) {
+  LineDriver driver = MakeDriver();
+  constexpr Twist kDrive{.forward_mps = 0.5};
+  Say(PoseLine(kTenth_ns, 0.0) + GasLine(10 * kTenth_ns, 1.0) + GasLine(12 * kTenth_ns, 1.0) +
+      PoseLine(13 * kTenth_ns, 0.5));
+  ASSERT_TRUE(driver.AwaitPose().ok());
+  ASSERT_TRUE(driver.Advance(0.9).ok());
+  ASSERT_TRUE(driver.Drive(kDrive).ok());
+  ASSERT_TRUE(driver.Advance(0.2).ok());
+  ASSERT_TRUE(driver.Drive(kDrive).ok());
+  ASSERT_TRUE(driver.Advance(0.1).ok());
+  ASSERT_TRUE(driver.Drive(kDrive).ok());
+  EXPECT_EQ(Heard(), FormatTwistLine(kDrive) + FormatTwistLine({}) + FormatTwistLine(kDrive));
+}
+
+TEST_F(LineDriverTest, AProgramThatDoesNotReadItsCommandsIsAnErrorInTheEnd) {
+  LineDriver driver = MakeDriver(absl::Milliseconds(10));
+  absl::Status status;
+  for (int i = 0; status.ok() && i < 100'000; ++i) status = driver.Drive({.forward_mps = 0.5});
+  EXPECT_TRUE(absl::IsUnavailable(status)) << status;
+}
+
 TEST_F(LineDriverTest, SilenceAndEndAreErrors) {
   LineDriver driver = MakeDriver(absl::Milliseconds(10));
   EXPECT_TRUE(absl::IsUnavailable(driver.AwaitPose()));

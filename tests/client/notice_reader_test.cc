@@ -74,5 +74,21 @@ TEST_F(NoticeReaderTest, ANewLeaseIsWatchedAnew) {
   EXPECT_EQ(server_.watches_opened(), 2);
 }
 
+TEST_F(NoticeReaderTest, PlansOfAFormerLifeOfTheMissionStopNoneOfThePresentOne) {
+  Poll();
+  server_.Notify(PlanAssigned{5});
+  server_.Notify(PlanInvalidated{.plan = 3});
+  Poll();
+  EXPECT_TRUE(reader_.TellsToStop(4, false));
+  EXPECT_NE(reader_.FindInvalidation(3), nullptr);
+  server_.BreakLink();
+  Poll();
+  server_.MendLink();
+  Poll(absl::Seconds(2));
+  ASSERT_EQ(server_.watches_opened(), 2);
+  EXPECT_FALSE(reader_.TellsToStop(4, false));
+  EXPECT_EQ(reader_.FindInvalidation(3), nullptr);
+}
+
 }  // namespace notice_reader_test
 }  // namespace plumescout::client

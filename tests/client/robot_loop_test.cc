@@ -353,8 +353,10 @@ TEST_F(RobotLoopTest, ALinkThatStaysBrokenIsGivenUpWhenJoining) {
   server_.BreakLink();
   RobotLoopOptions options = Options(Pacing::kLockstep, Following::kIdeal);
   options.link_patience = absl::Milliseconds(5);
+  ASSERT_TRUE(driver_.Drive({.forward_mps = 1.0}).ok());  // in a former life
 
   EXPECT_TRUE(absl::IsUnavailable(Run(options).status()));
+  EXPECT_EQ(driver_.twist().forward_mps, 0.0);
 }
 
 TEST_F(RobotLoopTest, TicksAreReportedOnceForEachInstant) {

@@ -3,6 +3,10 @@
 #include "core/plan/team/assigned_plan.h"
 
 #include <utility>
+#include <vector>
+
+#include "core/plan/trajectory_check.h"
+#include "core/traffic/traffic.h"
 
 namespace plumescout {
 namespace {
@@ -22,6 +26,17 @@ Candidate CandidateOf(const Goal& goal, const Trajectory& trajectory) {
   return candidate;
 }
 
+// Whether others still reckon with its way, and that is open; without a map nothing is known.
+bool MayStillBeDriven(const Belief& belief, RobotRecord record, const Pose2& start) {
+  record.state.pose = start;
+  std::vector<Point2> way;
+  for (const Waypoint& waypoint : record.live_trajectory->waypoints) {
+    way.push_back(waypoint.pose.position());
+  }
+  const bool is_open = belief.geometry().size() == 0 || !FindBlockage(belief, way);
+  return is_open && IsOnItsWay(record, belief.sample_time_ns);
+}
+
 }  // namespace
 
 std::optional<Plan> AssignedPlan(const Belief& belief, const PlanRequest& request) {
@@ -36,9 +51,10 @@ std::optional<Plan> AssignedPlan(const Belief& belief, const PlanRequest& reques
     return std::nullopt;
   }
   if (!request.start && !record.state.has_pose) return std::nullopt;
-  const Point2 start = (request.start ? *request.start : record.state.pose).position();
+  const Pose2& start = request.start ? *request.start : record.state.pose;
   const Point2 first = record.live_trajectory->waypoints.front().pose.position();
-  if (!(Distance_m(start, first) <= kAssignedStart_m)) return std::nullopt;
+  const bool is_there = Distance_m(start.position(), first) <= kAssignedStart_m;
+  if (!is_there || !MayStillBeDriven(belief, record, start)) return std::nullopt;
   Plan plan;
   plan.id = record.assigned_plan;
   plan.robot = request.robot;

@@ -12,9 +12,12 @@ namespace plan_publisher_test {
 
 constexpr std::int64_t kTime_ns = 3'000'000'000;
 
+constexpr Pose2 kHere{0.25, 0.0, 0.0};
+
 Plan SomePlan() {
   Plan plan;
   plan.trajectory.waypoints = {{{1.0, 1.0, 0.0}}, {{4.0, 1.0, 0.0}}};
+  plan.trajectory.duration_s = 3.0;
   return plan;
 }
 
@@ -33,7 +36,7 @@ TEST(PlanPublisher, GoalIsForWhoDrivesByIt) {
   auto publisher = PlanPublisher::Advertise(*node, options);
   ASSERT_TRUE(publisher.ok()) << publisher.status();
   ASSERT_TRUE(Await(
-      *robot, [&] { EXPECT_TRUE((*publisher)->PublishPlan(SomePlan(), kTime_ns).ok()); },
+      *robot, [&] { EXPECT_TRUE((*publisher)->PublishPlan(SomePlan(), kHere, kTime_ns).ok()); },
       [&] { return path && goal; }));
   ASSERT_EQ(path->poses.size(), 2u);
   EXPECT_EQ(path->header.stamp.sec, 3);
@@ -50,6 +53,29 @@ TEST(PlanPublisher, GoalIsForWhoDrivesByIt) {
   EXPECT_FALSE(velocity.has_value());
 }
 
+TEST(PlanPublisher, APlanToStayHasTheGoalOfTheOneBeforeReplaced) {
+  const auto robot = OpenNode();
+  std::optional<ros::PoseStamped> goal;
+  Keep(*robot, "/r/goal_pose", Delivery::kReliable, goal);
+  const auto node = OpenNode();
+  auto publisher =
+      PlanPublisher::Advertise(*node, {.topics = {.ros_namespace = "r"}, .drives = Drives::kGoal});
+  ASSERT_TRUE(publisher.ok()) << publisher.status();
+  const auto publish = [&](const Plan& plan) {
+    EXPECT_TRUE((*publisher)->PublishPlan(plan, kHere, kTime_ns).ok());
+  };
+  ASSERT_TRUE(Await(
+      *robot, [&] { publish(SomePlan()); }, [&] { return goal.has_value(); }));
+  EXPECT_NE(goal->pose.position.x, kHere.x_m);
+  ASSERT_TRUE(Await(
+      *robot,
+      [&] {
+        publish(SomePlan());
+        publish(Plan{});
+      },
+      [&] { return goal->pose.position.x == kHere.x_m; }));
+}
+
 TEST(PlanPublisher, VelocityIsForWhoDrivesByThat) {
   const auto robot = OpenNode();
   std::optional<ros::PoseStamped> goal;
@@ -62,7 +88,7 @@ TEST(PlanPublisher, VelocityIsForWhoDrivesByThat) {
   ASSERT_TRUE(Await(
       *robot,
       [&] {
-        EXPECT_TRUE((*publisher)->PublishPlan(SomePlan(), kTime_ns).ok());
+        EXPECT_TRUE((*publisher)->PublishPlan(SomePlan(), kHere, kTime_ns).ok());
         EXPECT_TRUE((*publisher)->PublishVelocity({0.5, -0.2}, kTime_ns).ok());
       },
       [&] { return velocity.has_value(); }));

@@ -75,6 +75,9 @@ TEST(AssessObjective, WhatNoRobotCanReachDoesNotCount) {
   EXPECT_EQ(AssessObjective(hall.belief).state, ObjectiveState::kMet);
   hall.belief.robots["far"].first_place = hall.Center({17, 5});
   EXPECT_EQ(AssessObjective(hall.belief).state, ObjectiveState::kRefuted);
+  (*hall.traversable)[Cell{16, 5}] = 0;  // too near to a wall for a plan that goes on
+  hall.belief.robots["far"].first_place = hall.Center({16, 5});
+  EXPECT_EQ(AssessObjective(hall.belief).state, ObjectiveState::kRefuted);
 }
 
 TEST(AssessObjective, WithoutAReadingNothingIsMet) {

@@ -273,6 +273,21 @@ TEST(SamplingStrategy, ReturnsBeforeItsMissionIsComplete) {
   EXPECT_EQ(PlanOf(belief, options).phase, MissionPhase::kComplete);
 }
 
+TEST(SamplingStrategy, WhoIsOutsideTheRegionWhenNothingIsLeftIsDone) {
+  Belief belief = SiteBelief(OpenArt(12, 1));
+  belief.robots["r"].first_place = belief.geometry().Center({0, 0});
+  std::vector<Cell> all;
+  for (int x = 0; x < 12; ++x) all.push_back({x, 0});
+  testing::SetSampled(belief, all);
+  PlanningOptions options = SiteOptionsOf("lhr", belief.geometry());
+  options.return_home = true;
+  options.sites.region = Rectangle{{0.6, 0.0}, {1.2, 0.3}};
+  testing::MovePose(belief, belief.geometry().Center({0, 0}));
+  EXPECT_EQ(PlanOf(belief, options).phase, MissionPhase::kComplete);
+  testing::MovePose(belief, belief.geometry().Center({3, 0}));
+  EXPECT_EQ(PlanOf(belief, options).phase, MissionPhase::kReturning);
+}
+
 TEST(SamplingStrategy, ReturnsWhenItsBudgetIsSpent) {
   Belief belief = SiteBelief(OpenArt(60, 1, {30, 0}));
   RobotRecord& robot = belief.robots["r"];

@@ -282,5 +282,19 @@ TEST(Traffic, OfAWayThatIsDrivenTheRestCounts) {
   EXPECT_FALSE(traffic.FirstMeeting(way, 20.0).has_value());
 }
 
+TEST(Traffic, WhoWasNotHeardOfForAWhileMayHaveDrivenOn) {
+  RobotRecord other = Driving("b", Along({{-12.0, 0.0}, {3.0, 0.0}, {3.0, 9.0}}));
+  other.live_arrival_ns -= 15'000'000'000;  // it set out 15 s ago, and told of 1 m alone
+  other.state.pose.x_m = -11.0;
+  const Trajectory way = Along({{0.0, 3.0}, {6.0, 3.0}});
+  EXPECT_FALSE(TrafficFor(way, other).FirstMeeting(way).has_value());
+  other.heard_ns = kNow_ns - 14'000'000'000;
+  const auto meeting = TrafficFor(way, other).FirstMeeting(way);
+  ASSERT_TRUE(meeting.has_value());
+  EXPECT_EQ(meeting->robot, "b");
+  other.heard_ns = kNow_ns - 500'000'000;
+  EXPECT_FALSE(TrafficFor(way, other).FirstMeeting(way).has_value()) << "poses come, it is late";
+}
+
 }  // namespace traffic_test
 }  // namespace plumescout

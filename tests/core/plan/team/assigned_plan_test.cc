@@ -5,6 +5,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <memory>
+
 #include "tests/support/corridor_team.h"
 
 namespace plumescout {
@@ -55,6 +57,23 @@ TEST(AssignedPlan, WhoAskedItselfOrIsElsewhereOrWantsHomePlansAnew) {
   team.belief.robots["a"].assigned_plan = 0;
   EXPECT_FALSE(AssignedPlan(team.belief, For("a")).has_value());
   EXPECT_FALSE(AssignedPlan(team.belief, For("z")).has_value());
+}
+
+TEST(AssignedPlan, WhatNobodyReckonsWithAnyMoreIsPlannedAnew) {
+  CorridorTeam team = Assigned();
+  team.belief.sample_time_ns += 20'000'000'000;
+  EXPECT_TRUE(AssignedPlan(team.belief, For("a")).has_value()) << "it is late";
+  team.belief.sample_time_ns += 60'000'000'000;
+  EXPECT_FALSE(AssignedPlan(team.belief, For("a")).has_value());
+}
+
+TEST(AssignedPlan, AWayThatWasClosedSinceIsPlannedAnew) {
+  CorridorTeam team = Assigned();
+  auto traversable = std::make_shared<Grid<std::uint8_t>>(*team.belief.traversable);
+  const Cell there = team.belief.geometry().CellAt(CorridorTeam::At(5.0));
+  for (int y = 0; y < traversable->height(); ++y) (*traversable)[Cell{there.x, y}] = 0;
+  team.belief.traversable = traversable;
+  EXPECT_FALSE(AssignedPlan(team.belief, For("a")).has_value());
 }
 
 }  // namespace assigned_plan_test
