@@ -119,6 +119,11 @@ class KubernetesTest(unittest.TestCase):
         volumes |= {volume["name"] for volume in self.pod["spec"]["volumes"]}
         self.assertEqual({mount["name"] for mount in self.container["volumeMounts"]}, volumes)
 
+    def test_who_recovers_for_long_is_not_killed(self):
+        paths = {k: self.container[f"{k}Probe"]["httpGet"]["path"] for k in ("startup", "liveness")}
+        self.assertEqual(paths, {"startup": "/healthz", "liveness": "/healthz"})
+        self.assertEqual(self.container["readinessProbe"]["httpGet"]["path"], "/readyz")
+
     def test_the_server_takes_what_it_is_started_with(self):
         program = running.BUILD_DIR / "bin/plumescout-server"
         arguments = [a.replace("/certificates/", "/nowhere/") for a in self.container["args"]]
@@ -221,6 +226,10 @@ class ComposeTest(unittest.TestCase):
                     self.assertTrue(path.exists() or path.name in made, f"{name}: {source}")
                 else:
                     self.assertIn(source, self.file["volumes"], name)
+
+    def test_nothing_fails_because_a_server_recovers_for_long(self):
+        on_server = self.file["services"]["front"]["depends_on"]["server"]
+        self.assertEqual(on_server["condition"], "service_started")
 
     def test_nothing_may_write_to_its_root(self):
         for name, service in self.file["services"].items():
