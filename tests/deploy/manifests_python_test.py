@@ -190,6 +190,17 @@ class KubernetesClusterTest(unittest.TestCase):
         for container in self.router["spec"]["containers"]:
             self.assertLessEqual({mount["name"] for mount in container["volumeMounts"]}, volumes)
 
+    def test_imports_of_a_node_are_put_aside_on_a_disk(self):
+        base = yaml.safe_load((KUBERNETES / "server.yaml").read_text())["spec"]["template"]["spec"]
+        patch = self.patches["server.yaml"]["spec"]["template"]["spec"]
+        volumes = {v["name"]: v for v in (*base["volumes"], *patch["volumes"])}
+        mounts = {m["mountPath"]: m["name"] for m in base["containers"][0]["volumeMounts"]}
+        for container in patch["containers"]:
+            if any(a.startswith("--store=postgresql:") for a in container["args"]):
+                environment = {e["name"]: e.get("value") for e in container["env"]}
+                volume = volumes[mounts[environment["TMPDIR"]]]
+                self.assertNotEqual(volume["emptyDir"].get("medium"), "Memory")
+
     def test_a_node_takes_what_it_is_started_with(self):
         arguments = self.patches["server.yaml"]["spec"]["template"]["spec"]["containers"][0]["args"]
         arguments = [a.replace("$(PLUMESCOUT_NODE)", "n1") for a in arguments]
