@@ -6,6 +6,7 @@ import json
 import os
 import pathlib
 import signal
+import socket
 import subprocess
 import tempfile
 import time
@@ -249,6 +250,43 @@ class CtlTest(unittest.TestCase):
         self.assertIn("CLOCK", self.ctl("robots", "list", "--help"))
         self.assertIn("unrecognized", self.ctl("info", "--fast", code=2))
         self.ctl("info", "--timeout", "0.2", code=3, target="127.0.0.1:1")
+
+    def start_ctl(self, *arguments, target):
+        return subprocess.Popen(
+            ["/usr/bin/python3", PROGRAM, *arguments, "--timeout", str(PATIENCE_S)],
+            env=os.environ | {"PLUMESCOUT_SERVER": target},
+            stdout=subprocess.PIPE,
+            stderr=subprocess.PIPE,
+            text=True,
+        )
+
+    def interrupt(self, run):
+        """Its exit code."""
+        run.send_signal(signal.SIGINT)
+        try:
+            self.assertEqual(run.communicate(timeout=PATIENCE_S)[1], "")
+        finally:
+            run.kill()
+        return run.returncode
+
+    def test_what_is_cut_off_is_not_done(self):
+        for code, *arguments in ((130, "drain"), (130, "top", "--count", "2"), (0, "top")):
+            with self.subTest(arguments=arguments):
+                with socket.create_server(("127.0.0.1", 0)) as silent:
+                    silent.settimeout(PATIENCE_S)
+                    target = f"127.0.0.1:{silent.getsockname()[1]}"
+                    run = self.start_ctl(*arguments, target=target)
+                    with silent.accept()[0]:  # now it waits for an answer
+                        self.assertEqual(self.interrupt(run), code)
+
+    def test_who_watches_until_interrupted_is_done_then(self):
+        self.client.create_mission("hall")
+        self.client.register("hall", "scout")
+        for code, count in ((130, "100"), (0, "0")):
+            watch = ("robots", "watch", "hall", "scout", "--count", count)
+            run = self.start_ctl(*watch, target=self.target)
+            self.assertTrue(run.stdout.readline())
+            self.assertEqual(self.interrupt(run), code)
 
     def test_drain_ends_the_server(self):
         server, target = start_server()

@@ -47,6 +47,7 @@ class FakeServer:
         self.errors = []  # of the next calls that send a batch
         self.calls = []  # (rpc, request)
         self.slept_s = []
+        self.meanwhile = lambda: None  # what the robot does while a batch is under way
 
     @property
     def applied(self):
@@ -95,6 +96,10 @@ class FakeServer:
                 raise self.errors.pop(0)
             self.take(request)
             return ingest_pb.BatchIngestObservationsResponse(ingest_state=self.state())
+        if effect.rpc is rpcs.NEXT_BEST_TRAJECTORY:
+            return planning_pb.NextBestTrajectoryResponse(plan={"chosen_index": -1})
+        if effect.rpc is rpcs.CHECK_TRAJECTORY:
+            return planning_pb.CheckTrajectoryResponse()
         raise AssertionError(effect)
 
     def registration(self):
@@ -115,6 +120,8 @@ class FakeServer:
 
     def take(self, request):
         """request: something with `open` and `batch`."""
+        if request.HasField("batch"):
+            self.meanwhile()
         if not self.knows_robot:
             raise refusal(grpc.StatusCode.NOT_FOUND, "ROBOT_NOT_FOUND")
         if request.open.durable_sequence > self.applied:
@@ -141,6 +148,7 @@ class FakeStream:
         self.responses = []
 
     def write(self, request):
+        assert None not in self.responses, "a request after the last"
         response = ingest_pb.StreamObservationsResponse()
         if request.HasField("open"):
             self.server.take(ingest_pb.BatchIngestObservationsRequest(open=request.open))
@@ -181,7 +189,7 @@ class RobotTest(unittest.TestCase):
         self.send(10)
         self.assertEqual(self.server.log, list(range(1, 11)))
         self.assertEqual(self.batches(), [])
-        self.assertFalse(self.robot.log.waits)
+        self.assertEqual(self.robot.log.applied_sequence, 10)
 
     def test_what_is_durable_is_forgotten(self):
         self.server.lag = 3
@@ -247,6 +255,32 @@ class RobotTest(unittest.TestCase):
         with self.assertRaises(plumescout.PlumeScoutError) as caught:
             self.server.run(self.robot.flush())
         self.assertEqual(caught.exception.reason, "SEQUENCE_GAP")
+
+    def observe(self, count):
+        if self.robot.log.last_sequence < 100:  # or who waits for all would do so for ever
+            for _ in range(count):
+                self.robot.add_gas(1, POSE, 1.0)
+
+    def test_who_goes_on_observing_waits_for_what_was_there_alone(self):
+        for stream in (False, True):
+            with self.subTest(stream=stream):
+                self.setUp()
+                self.server.meanwhile = lambda: self.observe(4)
+                self.send(10, stream=stream)
+                self.assertGreaterEqual(self.server.applied, 10)
+                self.assertEqual(self.robot.log.applied_sequence, self.server.applied)
+                self.assertLess(self.server.applied, self.robot.log.last_sequence)
+                self.assertLess(self.robot.log.last_sequence, 100)
+
+    def test_who_goes_on_observing_gets_a_plan_that_knows_what_was_sent(self):
+        self.server.meanwhile = lambda: self.observe(1)
+        self.robot.add_gas(1, POSE, 1.0)
+        self.server.run(self.robot.next_best_trajectory())
+        self.assertEqual(self.server.calls[-1][1].min_applied_sequence, 1)
+        self.robot.add_gas(1, POSE, 1.0)
+        self.server.run(self.robot.check_path([(0.0, 0.0)], "home"))
+        self.assertEqual(self.server.calls[-1][1].min_applied_sequence, 3)
+        self.assertEqual(self.robot.log.last_sequence, 4)
 
     def test_a_batch_bears_the_time_of_the_try_that_gets_through(self):
         full = refusal(grpc.StatusCode.UNAVAILABLE, "STORE_UNAVAILABLE", retry_after_s=0.001)

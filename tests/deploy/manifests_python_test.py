@@ -119,6 +119,11 @@ class KubernetesTest(unittest.TestCase):
         volumes |= {volume["name"] for volume in self.pod["spec"]["volumes"]}
         self.assertEqual({mount["name"] for mount in self.container["volumeMounts"]}, volumes)
 
+    def test_who_recovers_for_long_is_not_killed(self):
+        paths = {k: self.container[f"{k}Probe"]["httpGet"]["path"] for k in ("startup", "liveness")}
+        self.assertEqual(paths, {"startup": "/healthz", "liveness": "/healthz"})
+        self.assertEqual(self.container["readinessProbe"]["httpGet"]["path"], "/readyz")
+
     def test_the_server_takes_what_it_is_started_with(self):
         program = running.BUILD_DIR / "bin/plumescout-server"
         arguments = [a.replace("/certificates/", "/nowhere/") for a in self.container["args"]]
@@ -185,6 +190,17 @@ class KubernetesClusterTest(unittest.TestCase):
         for container in self.router["spec"]["containers"]:
             self.assertLessEqual({mount["name"] for mount in container["volumeMounts"]}, volumes)
 
+    def test_imports_of_a_node_are_put_aside_on_a_disk(self):
+        base = yaml.safe_load((KUBERNETES / "server.yaml").read_text())["spec"]["template"]["spec"]
+        patch = self.patches["server.yaml"]["spec"]["template"]["spec"]
+        volumes = {v["name"]: v for v in (*base["volumes"], *patch["volumes"])}
+        mounts = {m["mountPath"]: m["name"] for m in base["containers"][0]["volumeMounts"]}
+        for container in patch["containers"]:
+            if any(a.startswith("--store=postgresql:") for a in container["args"]):
+                environment = {e["name"]: e.get("value") for e in container["env"]}
+                volume = volumes[mounts[environment["TMPDIR"]]]
+                self.assertNotEqual(volume["emptyDir"].get("medium"), "Memory")
+
     def test_a_node_takes_what_it_is_started_with(self):
         arguments = self.patches["server.yaml"]["spec"]["template"]["spec"]["containers"][0]["args"]
         arguments = [a.replace("$(PLUMESCOUT_NODE)", "n1") for a in arguments]
@@ -221,6 +237,10 @@ class ComposeTest(unittest.TestCase):
                     self.assertTrue(path.exists() or path.name in made, f"{name}: {source}")
                 else:
                     self.assertIn(source, self.file["volumes"], name)
+
+    def test_nothing_fails_because_a_server_recovers_for_long(self):
+        on_server = self.file["services"]["front"]["depends_on"]["server"]
+        self.assertEqual(on_server["condition"], "service_started")
 
     def test_nothing_may_write_to_its_root(self):
         for name, service in self.file["services"].items():

@@ -124,26 +124,32 @@ class Ingest:
     # How that gets to the server.
 
     def flush(self, timeout_s: float | None = None, stream: bool | None = None) -> Operation[None]:
-        """Sends what waits. Refused observations are added to `rejections`, and on_rejected is told
-        of each. A server that lost what it had not on its disk, or was set back to older data, is
-        told again what this client still has; what is gone is declared as a gap. Where it has lost
-        the robot as it restarted, the robot registers again.
+        """Sends what waits as it is called: what is added meanwhile may stay for the next. Refused
+        observations are added to `rejections`, and on_rejected is told of each. A server that lost
+        what it had not on its disk, or was set back to older data, is told again what this client
+        still has; what is gone is declared as a gap. Where it has lost the robot as it restarted,
+        the robot registers again.
 
         What is not sent in time stays in the log. stream: over an ingest stream; default: if more
         waits than a batch takes."""
+        through = self.log.last_sequence
         end_s = self._operations.end_s(timeout_s)
         backoff = Backoff()
         limits = yield from self._operations.limits()
         if stream is None:
             stream = self.log.is_longer_than(limits.max_batch_observation_count)
-        while self.log.waits:
+        while self.log.applied_sequence < through:
             try:
-                yield from (self._send_stream(end_s) if stream else self._send_batch(end_s))
+                if stream:
+                    yield from self._send_stream(end_s, through)
+                else:
+                    yield from self._send_batch(end_s)
             except PlumeScoutError as error:
                 if error.link_broke or error.passes_by_itself:
                     yield from pause(error, backoff, end_s)
                 else:
                     yield from self._recover(error)
+                    through = self.log.last_sequence  # its numbers may be others
 
     def _send_batch(self, end_s: float) -> Operation[None]:
         limits = yield from self._operations.limits()
@@ -160,12 +166,12 @@ class Ingest:
         for rejection in response.rejections:
             self._reject(rejection)
 
-    def _send_stream(self, end_s: float) -> Operation[None]:
+    def _send_stream(self, end_s: float, through: int) -> Operation[None]:
         limits = yield from self._operations.limits()
         mission = self._request.mission.removeprefix("missions/")
         stream = yield Open(rpcs.STREAM_OBSERVATIONS, timeout_s=left_s(end_s), mission=mission)
         yield Write(stream, ingest_pb.StreamObservationsRequest(open=self._open))
-        sent, credit, ending = None, 0, False
+        sent, credit, ending = 0, 0, False
         while (response := (yield Read(stream))) is not None:
             kind = response.WhichOneof("frame")
             if kind == "rejected":
@@ -178,16 +184,19 @@ class Ingest:
                     self._go_back(sent)
             self._note(state)
             credit = max(credit, state.credit_sequence)
-            while batch := self.log.batch(limits, sent or 0, credit).observations:
+            while sent < through:
+                batch = self.log.batch(limits, sent, credit).observations
+                if not batch:
+                    break
                 frame = ingest_pb.StreamObservationsRequest()
                 frame.batch.observations.extend(batch)
                 self._stamp(frame.batch)
                 yield Write(stream, frame)
                 sent = last_sequence_of(batch[-1])
-            if not self.log.waits and not ending:
+            if self.log.applied_sequence >= through and not ending:
                 ending = True
                 yield EndWriting(stream)
-        if self.log.waits:
+        if self.log.applied_sequence < through:
             raise PlumeScoutError(grpc.StatusCode.UNAVAILABLE, "the ingest stream ended")
 
     def _stamp(self, batch: ingest_pb.ObservationBatch) -> None:

@@ -53,11 +53,6 @@ class Log:
             return self.last_sequence
 
     @property
-    def waits(self) -> bool:
-        """Whether there is anything that the server has not applied."""
-        return self.applied_sequence < self.last_sequence
-
-    @property
     def kept_count(self) -> int:
         return len(self._kept)
 

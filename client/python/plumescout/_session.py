@@ -82,7 +82,7 @@ class Session(Ingest):
         self, request: planning_pb.CheckTrajectoryRequest
     ) -> Operation[planning_pb.CheckTrajectoryResponse]:
         yield from self.flush()
-        request.min_applied_sequence = self.log.last_sequence
+        request.min_applied_sequence = self.log.applied_sequence
         return (yield from self._call(rpcs.CHECK_TRAJECTORY, request))
 
     def list_frontiers(self) -> Operation[list[planning_pb.FrontierGoal]]:
@@ -131,7 +131,7 @@ class Session(Ingest):
         yield from self.flush()
         request.robot = self.name
         request.lease_token = self._open.lease_token
-        request.min_applied_sequence = self.log.last_sequence
+        request.min_applied_sequence = self.log.applied_sequence
         request.seed = seed
         request.go_home = go_home
         request.planning_budget.FromNanoseconds(round(budget_s * 1e9))

@@ -16,9 +16,11 @@ from . import commands, completion, store, words
 from .output import Printer
 
 EXIT_REFUSED, EXIT_USAGE, EXIT_UNREACHABLE, EXIT_NOT_FOUND = 1, 2, 3, 4
+EXIT_INTERRUPTED = 130  # as shells say that SIGINT ended a program
 _EPILOG = """\
 exit codes: 0 done; 1 the server refused; 2 the command line is wrong; 3 the server cannot be
-reached; 4 no such mission or robot.
+reached; 4 no such mission or robot; 130 interrupted before it was done. What goes on until
+Ctrl-C (top, robots watch, without --count) is done then.
 
 examples:
   plumescoutctl missions list
@@ -48,6 +50,13 @@ def main(argv=None):
     argv = sys.argv[1:] if argv is None else argv
     parser = make_parser()
     arguments, rest = parser.parse_known_args(argv)
+    try:
+        return _carry_out(parser, arguments, rest)
+    except KeyboardInterrupt:
+        return 0 if _goes_on(arguments) else EXIT_INTERRUPTED
+
+
+def _carry_out(parser, arguments, rest):
     if arguments.command in (tokens.main, store.run):
         return arguments.command(rest)
     if rest:
@@ -64,9 +73,12 @@ def main(argv=None):
     except (OSError, ValueError, json_format.ParseError) as error:
         print(f"plumescoutctl: {error}", file=sys.stderr)
         return EXIT_USAGE
-    except KeyboardInterrupt:
-        pass
     return 0
+
+
+def _goes_on(arguments):
+    """Whether nothing but Ctrl-C ends it."""
+    return arguments.command in (commands.show_top, commands.watch_robot) and not arguments.count
 
 
 def connect(arguments):
