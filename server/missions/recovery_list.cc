@@ -21,8 +21,8 @@ void RecoveryList::AddAsleep(const SleepingMission& mission) {
 
 bool RecoveryList::SleepOn(const std::string& key) {
   const auto found = missions_.find(key);
-  if (found == missions_.end() || !IsWoken(found->second)) return false;
-  AddAsleep(SleepingMission(*found->second.sleep));
+  if (found == missions_.end() || found->second.is_asleep || !found->second.held.ok()) return false;
+  PutToSleep(key, found->second.sleep ? found->second.sleep->memory_bytes : 0);
   return true;
 }
 

@@ -47,8 +47,8 @@ class RecoveryList {
   // It cannot be recovered; `status` is for whoever calls for it.
   void Hold(const std::string& key, const absl::Status& status);
   void Erase(const std::string& key) { missions_.erase(key); }
-  // A mission that was woken could not be recovered now: the next call wakes it again. False if it
-  // is another.
+  // A mission that was yet to be recovered could not be, now: the next call wakes it, whether it
+  // slept before or not. False if it is another.
   bool SleepOn(const std::string& key);
   // There is no room for so much memory now: it sleeps until somebody calls for it.
   // REQUIRES: Contains(key).

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <atomic>
 #include <cstdint>
 #include <deque>
 #include <functional>
@@ -55,6 +56,8 @@ class HeldStore : public MissionStore {
     absl::MutexLock lock(&mutex_);
     mutex_.Await(absl::Condition(&reached));
   }
+  // So many acquisitions to come fail, as on a disk that is full for a while.
+  void RefuseAcquisitions(int count) { refused_acquisitions_ = count; }
   // What state() says from now on.
   void set_state(StoreState state) {
     absl::MutexLock lock(&mutex_);
@@ -65,6 +68,10 @@ class HeldStore : public MissionStore {
     return store_.Create(key, header);
   }
   absl::StatusOr<AcquiredMission> Acquire(const std::string& key) override {
+    if (refused_acquisitions_ > 0) {
+      --refused_acquisitions_;
+      return absl::UnavailableError("the disk is full");
+    }
     return store_.Acquire(key);
   }
   absl::StatusOr<std::unique_ptr<JournalReader>> Read(const std::string& key,
@@ -122,6 +129,7 @@ class HeldStore : public MissionStore {
     return oldest;
   }
 
+  std::atomic<int> refused_acquisitions_ = 0;
   MemoryStore store_{/*is_durable=*/true};
   mutable absl::Mutex mutex_;
   bool holds_ ABSL_GUARDED_BY(mutex_) = false;

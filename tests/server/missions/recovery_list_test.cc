@@ -83,6 +83,23 @@ TEST(RecoveryListTest, WhoSleepsIsLeftInPeaceUntilSomebodyCalls) {
   EXPECT_EQ(list.asleep(), 1);
 }
 
+TEST(RecoveryListTest, WhatCouldNotBeRecoveredNowSleeps) {
+  RecoveryList list;
+  list.Add({.key = "hall", .epoch = 3, .head = 7});
+  list.Add({.key = "yard"});
+  list.Hold("yard", absl::DataLossError("event 3"));
+  ASSERT_EQ(list.Next(), "hall");
+  EXPECT_TRUE(list.SleepOn("hall"));
+  EXPECT_FALSE(list.SleepOn("yard")) << "it never can be";
+  EXPECT_FALSE(list.SleepOn("attic"));
+  EXPECT_EQ(list.Next(), std::nullopt);
+  ASSERT_NE(list.FindAsleep("hall"), nullptr);
+  EXPECT_EQ(list.FindAsleep("hall")->epoch, 3);
+  EXPECT_EQ(list.waiting(), 0);
+  EXPECT_EQ(ErrorReason(list.CallFor("hall")), reason::kRecovering);
+  EXPECT_EQ(list.Next(), "hall");
+}
+
 TEST(RecoveryListTest, NoMoreIsListedThanIsWanted) {
   RecoveryList list;
   for (const char* key : {"a", "b", "c", "d"}) list.Add({.key = key});
