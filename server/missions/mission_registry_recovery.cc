@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Of the mission registry: missions that the store has and that do not run.
 #include <algorithm>
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <string>
@@ -114,7 +115,9 @@ absl::Status MissionRegistry::RecoverNow(const std::string& key, bool holds_name
   }
   const SteadyTime began = SteadyNow();
   const auto bytes = TakeRoomFor(key, holds_name);
-  auto host = bytes.ok() ? maker_.Revive(key, [closing = closing_] { return closing->load(); })
+  std::int64_t epoch = 0;  // under which it was taken over, if it was
+  auto host = bytes.ok() ? maker_.Revive(
+                               key, [closing = closing_] { return closing->load(); }, &epoch)
                          : absl::StatusOr<std::shared_ptr<MissionHost>>(bytes.status());
   absl::Status status = host.status();
   {
@@ -132,7 +135,7 @@ absl::Status MissionRegistry::RecoverNow(const std::string& key, bool holds_name
       absent_.Erase(key);
       sought_.Settle(key, HeldWith(key, status), clock_());
     } else if (closed_.ok() && !is_new && bytes.ok()) {
-      const bool sleeps_on = absl::IsUnavailable(status) && absent_.SleepOn(key);
+      const bool sleeps_on = absl::IsUnavailable(status) && absent_.SleepOn(key, epoch);
       if (!sleeps_on) absent_.Hold(key, HeldWith(key, status));
     }
   }

@@ -19,10 +19,15 @@ void RecoveryList::AddAsleep(const SleepingMission& mission) {
       Entry{.head = mission.head, .epoch = mission.epoch, .sleep = mission, .is_asleep = true};
 }
 
-bool RecoveryList::SleepOn(const std::string& key) {
+bool RecoveryList::SleepOn(const std::string& key, std::int64_t epoch) {
   const auto found = missions_.find(key);
   if (found == missions_.end() || found->second.is_asleep || !found->second.held.ok()) return false;
-  PutToSleep(key, found->second.sleep ? found->second.sleep->memory_bytes : 0);
+  Entry& entry = found->second;
+  if (epoch > 0) {
+    entry.epoch = epoch;
+    if (entry.sleep) entry.sleep->epoch = epoch;
+  }
+  PutToSleep(key, entry.sleep ? entry.sleep->memory_bytes : 0);
   return true;
 }
 

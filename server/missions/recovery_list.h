@@ -48,8 +48,8 @@ class RecoveryList {
   void Hold(const std::string& key, const absl::Status& status);
   void Erase(const std::string& key) { missions_.erase(key); }
   // A mission that was yet to be recovered could not be, now: the next call wakes it, whether it
-  // slept before or not. False if it is another.
-  bool SleepOn(const std::string& key);
+  // slept before or not. `epoch`: the newest of it; 0: as before. False if it is another.
+  bool SleepOn(const std::string& key, std::int64_t epoch);
   // There is no room for so much memory now: it sleeps until somebody calls for it.
   // REQUIRES: Contains(key).
   void PutToSleep(const std::string& key, std::int64_t memory_bytes);

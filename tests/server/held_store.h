@@ -58,6 +58,8 @@ class HeldStore : public MissionStore {
   }
   // So many acquisitions to come fail, as on a disk that is full for a while.
   void RefuseAcquisitions(int count) { refused_acquisitions_ = count; }
+  // The same of journals to be read.
+  void RefuseReads(int count) { refused_reads_ = count; }
   // What state() says from now on.
   void set_state(StoreState state) {
     absl::MutexLock lock(&mutex_);
@@ -76,6 +78,10 @@ class HeldStore : public MissionStore {
   }
   absl::StatusOr<std::unique_ptr<JournalReader>> Read(const std::string& key,
                                                       std::int64_t first_number) override {
+    if (refused_reads_ > 0) {
+      --refused_reads_;
+      return absl::UnavailableError("no more files can be opened");
+    }
     return store_.Read(key, first_number);
   }
   absl::StatusOr<AcquiredMission> Peek(const std::string& key) override { return store_.Peek(key); }
@@ -130,6 +136,7 @@ class HeldStore : public MissionStore {
   }
 
   std::atomic<int> refused_acquisitions_ = 0;
+  std::atomic<int> refused_reads_ = 0;
   MemoryStore store_{/*is_durable=*/true};
   mutable absl::Mutex mutex_;
   bool holds_ ABSL_GUARDED_BY(mutex_) = false;

@@ -1,0 +1,74 @@
+// SPDX-FileCopyrightText: PlumeScout contributors
+// SPDX-License-Identifier: Apache-2.0
+// Of the mission registry: missions that sleep are forgotten in time, whatever happened to them.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/types/error_reason.h"
+#include "server/missions/mission_registry.h"
+#include "tests/server/held_store.h"
+#include "tests/server/stored_run.h"
+
+namespace plumescout::server {
+namespace mission_registry_sleep_test {
+
+class MissionRegistrySleepTest : public testing::Test {
+ protected:
+  MissionRegistrySleepTest() { Start(); }
+
+  // Another registry on the same store.
+  void Start() {
+    RegistryHooks hooks;
+    hooks.store = &store_;
+    hooks.clock = [this] { return now_; };
+    RegistryOptions options;
+    options.max_missions = 2;
+    options.sleep_after = absl::Seconds(60);
+    registry_ = std::make_unique<MissionRegistry>(options, hooks);
+    const absl::Status found = registry_->FindStored();
+    EXPECT_TRUE(found.ok()) << found;
+  }
+  void RecoverAll() {
+    while (registry_->RecoverNext()) {
+    }
+  }
+  // Keys of the missions that the store has once it has done what it was told so far.
+  std::vector<std::string> StoredKeys() {
+    EXPECT_TRUE(store_.Create("~", "").ok());  // its turn comes after all that
+    std::vector<std::string> keys;
+    const auto stored = store_.List();
+    for (const StoredMission& mission : *stored) keys.push_back(mission.key);
+    EXPECT_EQ(keys.back(), "~");
+    keys.pop_back();
+    return keys;
+  }
+
+  SteadyTime now_ = SteadyTime() + std::chrono::hours(1);
+  HeldStore store_;
+  std::unique_ptr<MissionRegistry> registry_;
+};
+
+TEST_F(MissionRegistrySleepTest, AMissionThatCouldNotBeWokenIsForgottenInTime) {
+  ASSERT_TRUE(registry_->Create("hall", {}).ok());
+  registry_->Find("hall").value()->standing().set_idle_time_to_live(absl::Hours(1));
+  now_ += std::chrono::seconds(60);
+  while (registry_->SleepIdle().empty()) {
+  }
+  ASSERT_TRUE(registry_->AwaitStopped(SteadyTime::max()));
+  store_.RefuseReads(1);
+  EXPECT_EQ(ErrorReason(registry_->Find("hall").status()), reason::kRecovering);
+  RecoverAll();
+  EXPECT_EQ(store_.Peek("hall")->epoch, 2) << "it was taken over";
+  EXPECT_EQ(registry_->absent().sleeping, 1);
+  now_ += std::chrono::hours(1);
+  EXPECT_THAT(registry_->DeleteIdle(), testing::ElementsAre("hall"));
+  EXPECT_THAT(StoredKeys(), testing::IsEmpty());
+}
+
+}  // namespace mission_registry_sleep_test
+}  // namespace plumescout::server
