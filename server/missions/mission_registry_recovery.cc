@@ -15,6 +15,7 @@
 #include "server/base/errors.h"
 #include "server/base/log.h"
 #include "server/missions/mission_registry.h"
+#include "server/missions/standing_record.h"
 #include "server/store/store_errors.h"
 
 namespace plumescout::server {
@@ -41,6 +42,12 @@ void LogRecovery(const std::string& key, const MissionHost* host, const absl::St
   }
 }
 
+// What cannot be read of it is told to whoever calls for the mission.
+absl::Duration IdleTimeToLiveOf(const StoredMission& mission) {
+  const auto standing = DecodeStanding(mission.standing);
+  return standing.ok() ? standing->idle_time_to_live : absl::InfiniteDuration();
+}
+
 }  // namespace
 
 absl::Status MissionRegistry::FindStored() {
@@ -51,10 +58,15 @@ absl::Status MissionRegistry::FindStored() {
   absl::MutexLock lock(&mutex_);
   for (const StoredMission& mission : stored) {
     if (hosts_.contains(mission.key)) continue;
+    // Nobody knows who used it when: its time begins anew.
+    const SteadyTime forget_at = After(clock_(), IdleTimeToLiveOf(mission));
     if (may_sleep() && !CheckCount().ok()) {
-      absent_.AddAsleep({.key = mission.key, .epoch = mission.epoch, .head = mission.head});
+      absent_.AddAsleep({.key = mission.key,
+                         .epoch = mission.epoch,
+                         .head = mission.head,
+                         .forget_at = forget_at});
     } else {
-      absent_.Add(mission);
+      absent_.Add(mission, forget_at);
     }
   }
   return absl::OkStatus();

@@ -10,8 +10,9 @@
 
 namespace plumescout::server {
 
-void RecoveryList::Add(const StoredMission& mission) {
-  missions_[mission.key] = Entry{.head = mission.head, .epoch = mission.epoch};
+void RecoveryList::Add(const StoredMission& mission, SteadyTime forget_at) {
+  missions_[mission.key] =
+      Entry{.head = mission.head, .epoch = mission.epoch, .forget_at = forget_at};
 }
 
 void RecoveryList::AddAsleep(const SleepingMission& mission) {
@@ -33,8 +34,8 @@ bool RecoveryList::SleepOn(const std::string& key, std::int64_t epoch) {
 
 void RecoveryList::PutToSleep(const std::string& key, std::int64_t memory_bytes) {
   const Entry& entry = missions_.at(key);
-  SleepingMission mission =
-      entry.sleep.value_or(SleepingMission{.key = key, .epoch = entry.epoch, .head = entry.head});
+  SleepingMission mission = entry.sleep.value_or(SleepingMission{
+      .key = key, .epoch = entry.epoch, .head = entry.head, .forget_at = entry.forget_at});
   mission.memory_bytes = memory_bytes;
   AddAsleep(mission);
 }

@@ -39,7 +39,8 @@ using WantedKey = std::function<bool(const std::string& key)>;
 // that cannot be recovered. Thread-compatible.
 class RecoveryList {
  public:
-  void Add(const StoredMission& mission);
+  // `forget_at`: should it sleep.
+  void Add(const StoredMission& mission, SteadyTime forget_at = SteadyTime::max());
   void AddAsleep(const SleepingMission& mission);
   // The next to recover, which is off the queue, but not off the list: of those that somebody has
   // called for, or else of all, the one with most events. Nothing if none waits.
@@ -81,6 +82,7 @@ class RecoveryList {
   struct Entry {
     std::int64_t head = 0;
     std::int64_t epoch = 0;
+    SteadyTime forget_at = SteadyTime::max();
     bool is_called_for = false;
     bool has_begun = false;
     absl::Status held = {};                               // OK: it is yet to be recovered

@@ -9,9 +9,12 @@
 #include <string>
 #include <vector>
 
+#include "absl/strings/str_cat.h"
 #include "core/types/error_reason.h"
 #include "server/missions/mission_registry.h"
+#include "server/missions/standing_record.h"
 #include "tests/server/held_store.h"
+#include "tests/server/store/store_work.h"
 #include "tests/server/stored_run.h"
 
 namespace plumescout::server {
@@ -37,14 +40,23 @@ class MissionRegistrySleepTest : public testing::Test {
     while (registry_->RecoverNext()) {
     }
   }
+  // A mission of the store with so many events, which goes when nobody uses it for an hour.
+  void Put(const std::string& key, std::int64_t events) {
+    std::vector<Event> registered;
+    for (std::int64_t number = 1; number <= events; ++number) {
+      const std::string robot = absl::StrCat("r", number);
+      registered.push_back({number, RobotRegistered{robot, 0.2, number}});
+    }
+    PutMission(store_, key, {}, registered);
+    const std::string standing = EncodeStanding({.idle_time_to_live = absl::Hours(1)});
+    EXPECT_TRUE(PutStandingNow(store_, key, 1, standing).ok());
+  }
   // Keys of the missions that the store has once it has done what it was told so far.
   std::vector<std::string> StoredKeys() {
-    EXPECT_TRUE(store_.Create("~", "").ok());  // its turn comes after all that
+    EXPECT_TRUE(absl::IsNotFound(RemoveNow(store_, "last", 1)));  // its turn is after all that
     std::vector<std::string> keys;
     const auto stored = store_.List();
     for (const StoredMission& mission : *stored) keys.push_back(mission.key);
-    EXPECT_EQ(keys.back(), "~");
-    keys.pop_back();
     return keys;
   }
 
@@ -68,6 +80,46 @@ TEST_F(MissionRegistrySleepTest, AMissionThatCouldNotBeWokenIsForgottenInTime) {
   now_ += std::chrono::hours(1);
   EXPECT_THAT(registry_->DeleteIdle(), testing::ElementsAre("hall"));
   EXPECT_THAT(StoredKeys(), testing::IsEmpty());
+}
+
+TEST_F(MissionRegistrySleepTest, WhatARestartLeavesAsleepIsForgottenInTime) {
+  Put("busy", 3);
+  Put("hall", 2);
+  Put("attic", 1);
+  Put("yard", 1);
+  Start();
+  RecoverAll();
+  EXPECT_EQ(registry_->absent().sleeping, 2);
+  const auto busy = registry_->Find("busy").value();
+  const auto hall = registry_->Find("hall").value();
+  now_ += std::chrono::hours(1) - std::chrono::nanoseconds(1);
+  EXPECT_THAT(registry_->DeleteIdle(), testing::IsEmpty());
+  now_ += std::chrono::nanoseconds(1);
+  EXPECT_THAT(registry_->DeleteIdle(), testing::UnorderedElementsAre("attic", "yard"));
+  EXPECT_THAT(StoredKeys(), testing::ElementsAre("busy", "hall"));
+}
+
+TEST_F(MissionRegistrySleepTest, WhatCannotBeRecoveredAtAStartIsForgottenInTime) {
+  Put("hall", 1);
+  store_.RefuseAcquisitions(1);
+  Start();
+  RecoverAll();
+  EXPECT_EQ(registry_->absent().sleeping, 1);
+  now_ += std::chrono::hours(1);
+  EXPECT_THAT(registry_->DeleteIdle(), testing::ElementsAre("hall"));
+  EXPECT_THAT(StoredKeys(), testing::IsEmpty());
+}
+
+TEST_F(MissionRegistrySleepTest, AMissionWhoseStandingCannotBeReadIsNotForgotten) {
+  PutMission(store_, "hall", {}, {{1, RobotRegistered{"r1", 0.2, 7}}});
+  ASSERT_TRUE(PutStandingNow(store_, "hall", 1, "rubbish").ok());
+  Put("busy", 3);
+  Put("mill", 2);
+  Start();
+  EXPECT_EQ(registry_->absent().sleeping, 1);
+  now_ += std::chrono::hours(1);
+  EXPECT_THAT(registry_->DeleteIdle(), testing::IsEmpty());
+  EXPECT_THAT(StoredKeys(), testing::ElementsAre("busy", "hall", "mill"));
 }
 
 }  // namespace mission_registry_sleep_test
