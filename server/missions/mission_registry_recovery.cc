@@ -97,6 +97,7 @@ bool MissionRegistry::RecoverNext() {
 absl::Status MissionRegistry::CheckRecovery(const std::string& key, bool holds_name) const {
   const absl::Status closed = Closed(key);
   if (!closed.ok() || holds_name) return closed;
+  if (removals_->Contains(key)) return MissionNotFound(MissionIdOf(key));
   if (hosts_.contains(key) || being_made_.contains(key)) return MissionExists(MissionIdOf(key));
   return absent_.Contains(key) ? absl::OkStatus() : CheckCount();
 }
