@@ -108,7 +108,9 @@ absl::Status MissionRegistry::Recover(const std::string& key, bool holds_name) {
   std::vector<RecoveryWaiters::Look> waiters;
   {
     absl::MutexLock lock(&mutex_);
-    waiters = waiters_.TakeOf(key);
+    // Whoever waits for one that sleeps on waits on: all it could do is wake it again at once.
+    const bool sleeps_on = absl::IsUnavailable(recovered) && absent_.FindAsleep(key) != nullptr;
+    if (!sleeps_on) waiters = waiters_.TakeOf(key);
   }
   for (const auto& look : waiters) look();
   return recovered;

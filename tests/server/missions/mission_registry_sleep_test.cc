@@ -110,6 +110,21 @@ TEST_F(MissionRegistrySleepTest, WhatCannotBeRecoveredAtAStartIsForgottenInTime)
   EXPECT_THAT(StoredKeys(), testing::IsEmpty());
 }
 
+TEST_F(MissionRegistrySleepTest, CallsThatWaitDoNotHaveTheStoreAskedAgainAndAgain) {
+  Put("hall", 1);
+  store_.RefuseAcquisitions(1);
+  Start();
+  int looks = 0;
+  ASSERT_NE(registry_->AwaitAnswer("hall", [&] { ++looks; }), 0);
+  RecoverAll();
+  EXPECT_EQ(registry_->absent().sleeping, 1);
+  EXPECT_EQ(looks, 0);
+  EXPECT_EQ(ErrorReason(registry_->Find("hall").status()), reason::kRecovering);
+  RecoverAll();
+  EXPECT_EQ(looks, 1);
+  EXPECT_TRUE(registry_->Find("hall").ok());
+}
+
 TEST_F(MissionRegistrySleepTest, AMissionWhoseStandingCannotBeReadIsNotForgotten) {
   PutMission(store_, "hall", {}, {{1, RobotRegistered{"r1", 0.2, 7}}});
   ASSERT_TRUE(PutStandingNow(store_, "hall", 1, "rubbish").ok());
