@@ -111,8 +111,10 @@ absl::StatusOr<std::int64_t> MissionMaker::StoredBudget_bytes(const std::string&
 }
 
 absl::StatusOr<std::shared_ptr<MissionHost>> MissionMaker::Revive(const std::string& key,
-                                                                  const StopFn& stop) const {
-  PLUMESCOUT_ASSIGN_OR_RETURN(RecoveredMission recovered, RecoverMission(*hooks_.store, key, stop));
+                                                                  const StopFn& stop,
+                                                                  std::int64_t* epoch) const {
+  PLUMESCOUT_ASSIGN_OR_RETURN(RecoveredMission recovered,
+                              RecoverMission(*hooks_.store, key, stop, epoch));
   PLUMESCOUT_ASSIGN_OR_RETURN(auto strategy,
                               hooks_.make_strategy(recovered.mission->options().planning));
   return MakeHost({.id = MissionIdOf(key),

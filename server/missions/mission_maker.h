@@ -82,8 +82,8 @@ class MissionMaker {
   // store.
   absl::StatusOr<std::int64_t> StoredBudget_bytes(const std::string& key) const;
   // REQUIRES: there is a store. As RecoverMission.
-  absl::StatusOr<std::shared_ptr<MissionHost>> Revive(const std::string& key,
-                                                      const StopFn& stop) const;
+  absl::StatusOr<std::shared_ptr<MissionHost>> Revive(const std::string& key, const StopFn& stop,
+                                                      std::int64_t* epoch = nullptr) const;
 
  private:
   std::shared_ptr<MissionHost> MakeHost(MissionHost::Parts parts, JournalHome home,

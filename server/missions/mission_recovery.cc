@@ -145,8 +145,9 @@ bool IsUnfinishedImport(const AcquiredMission& stored) {
 }
 
 absl::StatusOr<RecoveredMission> RecoverMission(MissionStore& store, const std::string& key,
-                                                const StopFn& stop) {
+                                                const StopFn& stop, std::int64_t* epoch) {
   PLUMESCOUT_ASSIGN_OR_RETURN(const AcquiredMission kept, store.Acquire(key));
+  if (epoch != nullptr) *epoch = kept.epoch;
   if (IsUnfinishedImport(kept)) {
     return absl::DataLossError(absl::StrCat(
         "mission ", key, " is an import that did not end; delete it, and import again"));

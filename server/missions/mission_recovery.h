@@ -47,8 +47,9 @@ struct RecoveredMission {
 };
 
 // Takes the mission over and brings it to where its durable events left it. Errors as MissionAt;
-// kDataLoss of an import that did not end on another server.
+// kDataLoss of an import that did not end on another server. `epoch`, if there is one, is set as
+// soon as the mission is taken over, also if it cannot be read then.
 absl::StatusOr<RecoveredMission> RecoverMission(MissionStore& store, const std::string& key,
-                                                const StopFn& stop);
+                                                const StopFn& stop, std::int64_t* epoch = nullptr);
 
 }  // namespace plumescout::server

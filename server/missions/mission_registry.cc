@@ -102,6 +102,7 @@ absl::StatusOr<std::shared_ptr<MissionHost>> MissionRegistry::Find(const Mission
   if (is_gone) Reap(found, Recovering(id), [] {});
   if (found != hosts_.end() && !is_gone) return found->second;
   if (!successors_.empty()) return Closed(key);
+  if (removals_->Contains(key)) return MissionNotFound(id);
   PLUMESCOUT_RETURN_IF_ERROR(WithAwaitedMission(CallForAbsent(key), key));
   return nodes_ == nullptr ? MissionNotFound(id) : WithAwaitedMission(Seek(key), key);
 }
@@ -180,9 +181,15 @@ std::vector<MissionId> MissionRegistry::SleepIdle() {
 }
 
 void MissionRegistry::Remove(Hosts::iterator found, MissionJournal::Callback removed) {
+  removals_->Add(found->first);
+  auto answered = [removals = removals_, key = found->first,
+                   removed = std::move(removed)](const absl::Status& status) {
+    removals->Erase(key);
+    removed(status);
+  };
   Reap(found, MissionNotFound(found->second->id()),
-       [journal = found->second->shared_journal(), removed = std::move(removed)] {
-         journal->Remove(removed);
+       [journal = found->second->shared_journal(), answered = std::move(answered)] {
+         journal->Remove(answered);
        });
 }
 

@@ -23,6 +23,7 @@
 #include "server/missions/mission_reaper.h"
 #include "server/missions/recovery_list.h"
 #include "server/missions/recovery_waiters.h"
+#include "server/missions/removal_list.h"
 #include "server/missions/sought_missions.h"
 #include "server/store/mission_store.h"
 #include "server/store/store_nodes.h"
@@ -240,6 +241,8 @@ class MissionRegistry {
   std::vector<std::string> successors_ ABSL_GUARDED_BY(mutex_);
   // Seen by what is recovered; epochs of it may outlive us.
   const std::shared_ptr<std::atomic<bool>> closing_ = std::make_shared<std::atomic<bool>>(false);
+  // Nobody recovers these; with the store, which may answer later than we live.
+  const std::shared_ptr<RemovalList> removals_ = std::make_shared<RemovalList>();
 
   MissionReaper reaper_;  // goes first: what it calls uses the above
 };

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Of the mission registry: missions that the store has and that do not run.
 #include <algorithm>
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <string>
@@ -14,6 +15,7 @@
 #include "server/base/errors.h"
 #include "server/base/log.h"
 #include "server/missions/mission_registry.h"
+#include "server/missions/standing_record.h"
 #include "server/store/store_errors.h"
 
 namespace plumescout::server {
@@ -40,6 +42,12 @@ void LogRecovery(const std::string& key, const MissionHost* host, const absl::St
   }
 }
 
+// What cannot be read of it is told to whoever calls for the mission.
+absl::Duration IdleTimeToLiveOf(const StoredMission& mission) {
+  const auto standing = DecodeStanding(mission.standing);
+  return standing.ok() ? standing->idle_time_to_live : absl::InfiniteDuration();
+}
+
 }  // namespace
 
 absl::Status MissionRegistry::FindStored() {
@@ -50,10 +58,15 @@ absl::Status MissionRegistry::FindStored() {
   absl::MutexLock lock(&mutex_);
   for (const StoredMission& mission : stored) {
     if (hosts_.contains(mission.key)) continue;
+    // Nobody knows who used it when: its time begins anew.
+    const SteadyTime forget_at = After(clock_(), IdleTimeToLiveOf(mission));
     if (may_sleep() && !CheckCount().ok()) {
-      absent_.AddAsleep({.key = mission.key, .epoch = mission.epoch, .head = mission.head});
+      absent_.AddAsleep({.key = mission.key,
+                         .epoch = mission.epoch,
+                         .head = mission.head,
+                         .forget_at = forget_at});
     } else {
-      absent_.Add(mission);
+      absent_.Add(mission, forget_at);
     }
   }
   return absl::OkStatus();
@@ -84,6 +97,7 @@ bool MissionRegistry::RecoverNext() {
 absl::Status MissionRegistry::CheckRecovery(const std::string& key, bool holds_name) const {
   const absl::Status closed = Closed(key);
   if (!closed.ok() || holds_name) return closed;
+  if (removals_->Contains(key)) return MissionNotFound(MissionIdOf(key));
   if (hosts_.contains(key) || being_made_.contains(key)) return MissionExists(MissionIdOf(key));
   return absent_.Contains(key) ? absl::OkStatus() : CheckCount();
 }
@@ -94,7 +108,9 @@ absl::Status MissionRegistry::Recover(const std::string& key, bool holds_name) {
   std::vector<RecoveryWaiters::Look> waiters;
   {
     absl::MutexLock lock(&mutex_);
-    waiters = waiters_.TakeOf(key);
+    // Whoever waits for one that sleeps on waits on: all it could do is wake it again at once.
+    const bool sleeps_on = absl::IsUnavailable(recovered) && absent_.FindAsleep(key) != nullptr;
+    if (!sleeps_on) waiters = waiters_.TakeOf(key);
   }
   for (const auto& look : waiters) look();
   return recovered;
@@ -114,7 +130,9 @@ absl::Status MissionRegistry::RecoverNow(const std::string& key, bool holds_name
   }
   const SteadyTime began = SteadyNow();
   const auto bytes = TakeRoomFor(key, holds_name);
-  auto host = bytes.ok() ? maker_.Revive(key, [closing = closing_] { return closing->load(); })
+  std::int64_t epoch = 0;  // under which it was taken over, if it was
+  auto host = bytes.ok() ? maker_.Revive(
+                               key, [closing = closing_] { return closing->load(); }, &epoch)
                          : absl::StatusOr<std::shared_ptr<MissionHost>>(bytes.status());
   absl::Status status = host.status();
   {
@@ -132,7 +150,7 @@ absl::Status MissionRegistry::RecoverNow(const std::string& key, bool holds_name
       absent_.Erase(key);
       sought_.Settle(key, HeldWith(key, status), clock_());
     } else if (closed_.ok() && !is_new && bytes.ok()) {
-      const bool sleeps_on = absl::IsUnavailable(status) && absent_.SleepOn(key);
+      const bool sleeps_on = absl::IsUnavailable(status) && absent_.SleepOn(key, epoch);
       if (!sleeps_on) absent_.Hold(key, HeldWith(key, status));
     }
   }

@@ -10,8 +10,9 @@
 
 namespace plumescout::server {
 
-void RecoveryList::Add(const StoredMission& mission) {
-  missions_[mission.key] = Entry{.head = mission.head, .epoch = mission.epoch};
+void RecoveryList::Add(const StoredMission& mission, SteadyTime forget_at) {
+  missions_[mission.key] =
+      Entry{.head = mission.head, .epoch = mission.epoch, .forget_at = forget_at};
 }
 
 void RecoveryList::AddAsleep(const SleepingMission& mission) {
@@ -19,17 +20,22 @@ void RecoveryList::AddAsleep(const SleepingMission& mission) {
       Entry{.head = mission.head, .epoch = mission.epoch, .sleep = mission, .is_asleep = true};
 }
 
-bool RecoveryList::SleepOn(const std::string& key) {
+bool RecoveryList::SleepOn(const std::string& key, std::int64_t epoch) {
   const auto found = missions_.find(key);
-  if (found == missions_.end() || !IsWoken(found->second)) return false;
-  AddAsleep(SleepingMission(*found->second.sleep));
+  if (found == missions_.end() || found->second.is_asleep || !found->second.held.ok()) return false;
+  Entry& entry = found->second;
+  if (epoch > 0) {
+    entry.epoch = epoch;
+    if (entry.sleep) entry.sleep->epoch = epoch;
+  }
+  PutToSleep(key, entry.sleep ? entry.sleep->memory_bytes : 0);
   return true;
 }
 
 void RecoveryList::PutToSleep(const std::string& key, std::int64_t memory_bytes) {
   const Entry& entry = missions_.at(key);
-  SleepingMission mission =
-      entry.sleep.value_or(SleepingMission{.key = key, .epoch = entry.epoch, .head = entry.head});
+  SleepingMission mission = entry.sleep.value_or(SleepingMission{
+      .key = key, .epoch = entry.epoch, .head = entry.head, .forget_at = entry.forget_at});
   mission.memory_bytes = memory_bytes;
   AddAsleep(mission);
 }

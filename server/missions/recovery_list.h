@@ -39,7 +39,8 @@ using WantedKey = std::function<bool(const std::string& key)>;
 // that cannot be recovered. Thread-compatible.
 class RecoveryList {
  public:
-  void Add(const StoredMission& mission);
+  // `forget_at`: should it sleep.
+  void Add(const StoredMission& mission, SteadyTime forget_at = SteadyTime::max());
   void AddAsleep(const SleepingMission& mission);
   // The next to recover, which is off the queue, but not off the list: of those that somebody has
   // called for, or else of all, the one with most events. Nothing if none waits.
@@ -47,9 +48,9 @@ class RecoveryList {
   // It cannot be recovered; `status` is for whoever calls for it.
   void Hold(const std::string& key, const absl::Status& status);
   void Erase(const std::string& key) { missions_.erase(key); }
-  // A mission that was woken could not be recovered now: the next call wakes it again. False if it
-  // is another.
-  bool SleepOn(const std::string& key);
+  // A mission that was yet to be recovered could not be, now: the next call wakes it, whether it
+  // slept before or not. `epoch`: the newest of it; 0: as before. False if it is another.
+  bool SleepOn(const std::string& key, std::int64_t epoch);
   // There is no room for so much memory now: it sleeps until somebody calls for it.
   // REQUIRES: Contains(key).
   void PutToSleep(const std::string& key, std::int64_t memory_bytes);
@@ -81,6 +82,7 @@ class RecoveryList {
   struct Entry {
     std::int64_t head = 0;
     std::int64_t epoch = 0;
+    SteadyTime forget_at = SteadyTime::max();
     bool is_called_for = false;
     bool has_begun = false;
     absl::Status held = {};                               // OK: it is yet to be recovered

@@ -54,9 +54,10 @@ class JournalReader {
 struct StoredMission {
   std::string key;
   std::int64_t epoch = 0;
-  std::int64_t head = 0;    // number of the last record; 0: there is none
-  std::int64_t bytes = 0;   // of header, standing, records and snapshots
-  bool is_damaged = false;  // as servers that share the store have found
+  std::int64_t head = 0;      // number of the last record; 0: there is none
+  std::int64_t bytes = 0;     // of header, standing, records and snapshots
+  bool is_damaged = false;    // as servers that share the store have found
+  std::string standing = {};  // as MissionStore::List tells it; empty if it is damaged, too
 
   friend bool operator==(const StoredMission&, const StoredMission&) = default;
 };

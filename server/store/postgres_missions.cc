@@ -171,7 +171,7 @@ absl::StatusOr<std::vector<StoredMission>> ListSharedMissions(PostgresConnection
   PLUMESCOUT_ASSIGN_OR_RETURN(
       const PostgresRows rows,
       connection.Run(PostgresStatement(absl::StrCat(
-                         kRow, ", d.mission IS NOT NULL", kFromMissions,
+                         kRow, ", d.mission IS NOT NULL, s.bytes", kFromMissions,
                          "LEFT JOIN plumescout_damage d ON d.mission = m.id ORDER BY m.key")),
                      kReadTimeout));
   std::vector<StoredMission> missions;
@@ -181,7 +181,9 @@ absl::StatusOr<std::vector<StoredMission>> ListSharedMissions(PostgresConnection
     const std::optional<SharedRow> whole = ReadRow(rows, at);
     const MissionRow& row = whole.value_or(damaged).row;
     const bool is_damaged = !whole.has_value() || rows.Int(at, 14) != 0;
-    missions.push_back({row.key, row.epoch, row.head, row.bytes, is_damaged});
+    std::string standing = rows.Bytes(at, 15);
+    if (row.standing_crc != Checksum().Add(standing).value()) standing = "";
+    missions.push_back({row.key, row.epoch, row.head, row.bytes, is_damaged, std::move(standing)});
   }
   return missions;
 }

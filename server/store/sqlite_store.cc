@@ -38,6 +38,18 @@ absl::StatusOr<Result> ReadOnce(const std::string& file,
   return read(rows);
 }
 
+absl::StatusOr<std::vector<StoredMission>> ListRows(MissionRows& rows) {
+  PLUMESCOUT_ASSIGN_OR_RETURN(const std::vector<MissionRow> all, rows.List());
+  std::vector<StoredMission> missions;
+  for (const MissionRow& row : all) {
+    absl::StatusOr<std::string> standing = rows.Standing(row);
+    if (absl::IsDataLoss(standing.status())) standing = "";  // whoever acquires it is told
+    PLUMESCOUT_RETURN_IF_ERROR(standing.status());
+    missions.push_back({row.key, row.epoch, row.head, row.bytes, false, *std::move(standing)});
+  }
+  return missions;
+}
+
 // A mark may be that of a mission that was removed, and perhaps made anew, before the database was
 // read; hardly twice in a row.
 template <typename Read>
@@ -87,12 +99,12 @@ absl::StatusOr<AcquiredMission> SqliteStore::Peek(const std::string& key) {
 
 absl::StatusOr<std::vector<StoredMission>> SqliteStore::List() {
   const std::vector<HeadMark> marks = engine_->marks().All();
-  PLUMESCOUT_ASSIGN_OR_RETURN(const std::vector<MissionRow> rows,
-                              ReadOnce<std::vector<MissionRow>>(
-                                  engine_->file(), [](MissionRows& all) { return all.List(); }));
+  PLUMESCOUT_ASSIGN_OR_RETURN(std::vector<StoredMission> rows,
+                              ReadOnce<std::vector<StoredMission>>(engine_->file(), ListRows));
   std::map<std::string, StoredMission> missions;
-  for (const MissionRow& row : rows) {
-    missions[row.key] = {row.key, row.epoch, row.head, row.bytes};
+  for (StoredMission& row : rows) {
+    const std::string key = row.key;
+    missions[key] = std::move(row);
   }
   for (const HeadMark& mark : marks) {
     const auto found = missions.find(mark.key);

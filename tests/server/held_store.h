@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <atomic>
 #include <cstdint>
 #include <deque>
 #include <functional>
@@ -55,6 +56,10 @@ class HeldStore : public MissionStore {
     absl::MutexLock lock(&mutex_);
     mutex_.Await(absl::Condition(&reached));
   }
+  // So many acquisitions to come fail, as on a disk that is full for a while.
+  void RefuseAcquisitions(int count) { refused_acquisitions_ = count; }
+  // The same of journals to be read.
+  void RefuseReads(int count) { refused_reads_ = count; }
   // What state() says from now on.
   void set_state(StoreState state) {
     absl::MutexLock lock(&mutex_);
@@ -65,10 +70,18 @@ class HeldStore : public MissionStore {
     return store_.Create(key, header);
   }
   absl::StatusOr<AcquiredMission> Acquire(const std::string& key) override {
+    if (refused_acquisitions_ > 0) {
+      --refused_acquisitions_;
+      return absl::UnavailableError("the disk is full");
+    }
     return store_.Acquire(key);
   }
   absl::StatusOr<std::unique_ptr<JournalReader>> Read(const std::string& key,
                                                       std::int64_t first_number) override {
+    if (refused_reads_ > 0) {
+      --refused_reads_;
+      return absl::UnavailableError("no more files can be opened");
+    }
     return store_.Read(key, first_number);
   }
   absl::StatusOr<AcquiredMission> Peek(const std::string& key) override { return store_.Peek(key); }
@@ -122,6 +135,8 @@ class HeldStore : public MissionStore {
     return oldest;
   }
 
+  std::atomic<int> refused_acquisitions_ = 0;
+  std::atomic<int> refused_reads_ = 0;
   MemoryStore store_{/*is_durable=*/true};
   mutable absl::Mutex mutex_;
   bool holds_ ABSL_GUARDED_BY(mutex_) = false;

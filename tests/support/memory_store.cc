@@ -111,7 +111,8 @@ class MemoryStore::Shelf {
     absl::MutexLock lock(&mutex_);
     std::vector<StoredMission> listed;
     for (const auto& [key, mission] : missions_) {
-      listed.push_back({key, mission->known.epoch, mission->known.head, mission->bytes()});
+      const AcquiredMission& known = mission->known;
+      listed.push_back({key, known.epoch, known.head, mission->bytes(), false, known.standing});
     }
     return listed;
   }

@@ -215,6 +215,27 @@ TEST_F(MissionRegistryNodesTest, MissionsOfNobodyGoWhenTheirTimeIsOver) {
   EXPECT_TRUE(registry_->Find("hall").ok());
 }
 
+TEST_F(MissionRegistryNodesTest, ADeletedMissionIsNotTakenOverBeforeTheStoreHasForgottenIt) {
+  ASSERT_TRUE(registry_->Create("hall", {}).ok());
+  store_.Hold();
+  absl::Notification removed;
+  const auto note = [&](const absl::Status& status) {
+    EXPECT_TRUE(status.ok()) << status;
+    removed.Notify();
+  };
+  ASSERT_TRUE(registry_->Delete("hall", "", note).ok());
+  EXPECT_TRUE(absl::IsNotFound(registry_->Find("hall").status()));
+  EXPECT_TRUE(absl::IsNotFound(registry_->Recover("hall")));
+  EXPECT_EQ(store_.Peek("hall")->epoch, 1);
+  store_.AwaitHeld(1);
+  EXPECT_TRUE(absl::IsNotFound(registry_->Find("hall").status()));
+  store_.HeldStore::Release();
+  removed.WaitForNotification();
+  EXPECT_TRUE(absl::IsNotFound(CallFor("hall").status())) << "the store is asked";
+  EXPECT_TRUE(registry_->Create("hall", {}).ok());
+  EXPECT_TRUE(registry_->Find("hall").ok());
+}
+
 TEST_F(MissionRegistryNodesTest, WhatOthersAreToReadIsShortened) {
   const auto host = registry_->Create("hall", support::FastAgeing()).value();
   absl::Notification applied;

@@ -158,6 +158,22 @@ TEST_F(MissionRegistryRecoveryTest, ADamagedMissionIsHeldAndOthersGoOn) {
   EXPECT_TRUE(registry_->ListAbsent("acme/bad").empty());
 }
 
+TEST_F(MissionRegistryRecoveryTest, WhatTheStoreRefusesForAWhileIsTriedAgainWhenItIsCalledFor) {
+  ASSERT_TRUE(registry_->Create("hall", {}).ok());
+  Restart();
+  store_.RefuseAcquisitions(2);
+  RecoverAll();
+  EXPECT_EQ(registry_->absent().damaged, 0);
+  EXPECT_EQ(registry_->absent().sleeping, 1);
+  for (int calls = 0; calls < 2; ++calls) {
+    EXPECT_EQ(ErrorReason(registry_->Find("hall").status()), reason::kRecovering);
+    RecoverAll();
+  }
+  EXPECT_TRUE(registry_->Find("hall").ok());
+  EXPECT_EQ(registry_->absent().sleeping, 0);
+  EXPECT_EQ(registry_->reserved_bytes(), MissionOptions().memory_budget_bytes);
+}
+
 TEST_F(MissionRegistryRecoveryTest, WhatIsPutIntoTheStoreCanBeRecoveredByName) {
   PutMission(store_, "hall", {}, {{1, RobotRegistered{"r1", 0.2, 7}}});
   EXPECT_TRUE(absl::IsNotFound(registry_->Find("hall").status()));

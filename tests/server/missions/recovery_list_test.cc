@@ -74,13 +74,32 @@ TEST(RecoveryListTest, WhoSleepsIsLeftInPeaceUntilSomebodyCalls) {
   EXPECT_EQ(list.woken_memory_bytes(), 100);
   EXPECT_EQ(list.waiting(), 1);
   EXPECT_EQ(list.Next(), "a");
-  EXPECT_TRUE(list.SleepOn("a"));
-  EXPECT_FALSE(list.SleepOn("a")) << "it sleeps";
-  EXPECT_EQ(list.FindAsleep("a")->epoch, 3);
+  EXPECT_TRUE(list.SleepOn("a", 4));
+  EXPECT_FALSE(list.SleepOn("a", 5)) << "it sleeps";
+  EXPECT_EQ(list.FindAsleep("a")->epoch, 4);
   EXPECT_EQ(list.Next(), std::nullopt) << "until somebody calls again";
   EXPECT_TRUE(list.TakeForgotten(kLater - std::chrono::nanoseconds(1)).empty());
   EXPECT_EQ(list.TakeForgotten(kLater).at(0).key, "b");
   EXPECT_EQ(list.asleep(), 1);
+}
+
+TEST(RecoveryListTest, WhatCouldNotBeRecoveredNowSleeps) {
+  RecoveryList list;
+  list.Add({.key = "hall", .epoch = 3, .head = 7});
+  list.Add({.key = "yard"});
+  list.Hold("yard", absl::DataLossError("event 3"));
+  ASSERT_EQ(list.Next(), "hall");
+  EXPECT_TRUE(list.SleepOn("hall", 0));
+  EXPECT_FALSE(list.SleepOn("yard", 0)) << "it never can be";
+  EXPECT_FALSE(list.SleepOn("attic", 0));
+  EXPECT_EQ(list.Next(), std::nullopt);
+  ASSERT_NE(list.FindAsleep("hall"), nullptr);
+  EXPECT_EQ(list.FindAsleep("hall")->epoch, 3);
+  EXPECT_EQ(list.waiting(), 0);
+  EXPECT_EQ(ErrorReason(list.CallFor("hall")), reason::kRecovering);
+  EXPECT_EQ(list.Next(), "hall");
+  EXPECT_TRUE(list.SleepOn("hall", 4));
+  EXPECT_EQ(list.FindAsleep("hall")->epoch, 4);
 }
 
 TEST(RecoveryListTest, NoMoreIsListedThanIsWanted) {

@@ -215,8 +215,9 @@ TEST_P(MissionStoreContract, ListsSayHowFarAndHowLarge) {
     ASSERT_TRUE(PutSnapshotNow(store(), "mill", 1, {revision, 0, std::string(50, 's')}).ok());
   }
   ASSERT_TRUE(store().Acquire("mill").ok());
-  EXPECT_THAT(*store().List(), ElementsAre(StoredMission{"barn/7", 1, 0, 0},
-                                           StoredMission{"mill", 2, 2, 100 + 8 + 6 + 2 * 50}));
+  EXPECT_THAT(*store().List(),
+              ElementsAre(StoredMission{"barn/7", 1, 0, 0},
+                          StoredMission{"mill", 2, 2, 100 + 8 + 6 + 2 * 50, false, "paused"}));
 }
 
 TEST_P(MissionStoreContract, WhatIsRemovedIsGoneAndMayBeMadeAnew) {
