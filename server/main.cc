@@ -142,6 +142,7 @@ int Run(const ServerConfig& config) {
   LogInfo("draining", {{"signal", absl::StrCat(signal)}});
   const int exit_code = unreachable ? kExitUnreachable : EXIT_SUCCESS;
   const ExitTimer limit(absl::Seconds(config.connection.drain_s) + Server::kStopLimit, exit_code);
+  if (*web != nullptr) (*web)->RefuseCalls();
   (*server)->Drain();
   web->reset();
   http->reset();

@@ -23,6 +23,8 @@
 #include "absl/strings/strip.h"
 #include "core/types/status_macros.h"
 #include "server/base/address.h"
+#include "server/base/errors.h"
+#include "server/base/grpc_status.h"
 #include "server/base/tcp_listener.h"
 #include "server/web/grpc_web.h"
 
@@ -350,6 +352,11 @@ int WebServer::CountCalls(bool streams) const {
       }));
 }
 
+void WebServer::RefuseCalls() {
+  const absl::MutexLock lock(&begin_mutex_);
+  refuses_calls_ = true;
+}
+
 void WebServer::StartCall(const HttpRequest& request, Connection& connection) {
   if (!absl::StartsWith(request.Header("content-type"), "application/grpc-web") ||
       absl::StartsWith(request.Header("content-type"), "application/grpc-web-text")) {
@@ -389,6 +396,11 @@ void WebServer::StartCall(const HttpRequest& request, Connection& connection) {
         std::min(parts.timeout.value_or(options_.call_patience), options_.call_patience);
   }
   parts.wake = [bell = bell_] { bell->Ring(); };
+  const absl::MutexLock lock(&begin_mutex_);
+  if (refuses_calls_) {
+    connection.out = RefusedCall(ToGrpc(Draining()));
+    return;
+  }
   connection.is_stream = method->is_stream;
   connection.call = WebCall::Start(channel_, std::move(parts));
   connection.out = HttpHead(200, kGrpcWebType, kNoStore, kChunked);

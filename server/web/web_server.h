@@ -11,7 +11,9 @@
 #include <thread>
 #include <vector>
 
+#include "absl/base/thread_annotations.h"
 #include "absl/status/statusor.h"
+#include "absl/synchronization/mutex.h"
 #include "absl/time/time.h"
 #include "server/base/clock.h"
 #include "server/web/http_message.h"
@@ -66,6 +68,10 @@ class WebServer {
   WebServer& operator=(const WebServer&) = delete;
 
   int port() const;
+  // From now on calls are refused, as a server that drains does. Before the server behind the
+  // channel is shut down: gRPC does not bear calls that begin on a channel in the process after
+  // that.
+  void RefuseCalls();
 
  private:
   class Bell;  // wakes the thread
@@ -116,6 +122,8 @@ class WebServer {
   const std::shared_ptr<grpc::Channel> channel_;
   const WebOptions options_;
   const std::shared_ptr<Bell> bell_;
+  absl::Mutex begin_mutex_;  // held while a call begins
+  bool refuses_calls_ ABSL_GUARDED_BY(begin_mutex_) = false;
   // Of the thread.
   std::list<Connection> connections_;
   SteadyTime accept_after_;

@@ -83,6 +83,14 @@ TEST_F(WebServerTest, OneConnectionCarriesSeveralRequests) {
   EXPECT_EQ(count, 3U);
 }
 
+TEST_F(WebServerTest, WhatComesWhenTheServerIsAboutToEndIsRefused) {
+  Serve();
+  web_->RefuseCalls();
+  const std::string answer = Exchange(Post(kListMissions, ""));
+  EXPECT_THAT(answer, HasSubstr("grpc-status: 14\r\n"));
+  EXPECT_THAT(answer, HasSubstr("DRAINING"));
+}
+
 TEST_F(WebServerTest, OnlyItsOwnPagesMayCall) {
   Serve();
   const auto with = [&](const std::string& headers) {
