@@ -5,50 +5,25 @@
 import json
 import os
 import pathlib
-import signal
 import socket
 import subprocess
 import tempfile
-import time
 import unittest
 
 import numpy as np
 import plumescout
 from plumescout.ctl import output
 
-BUILD_DIR = pathlib.Path(os.environ["PLUMESCOUT_BUILD_DIR"])
-PROGRAM = pathlib.Path(__file__).resolve().parents[2] / "client/python/plumescoutctl"
-PATIENCE_S = 60
-
-
-def start_server(*options, store="none"):
-    """The process, and where it listens. store: how it keeps missions."""
-    options = ("--store", store, *options)
-    server = subprocess.Popen(
-        [BUILD_DIR / "bin/plumescout-server", "--listen", "127.0.0.1:0"]
-        + ["--set", "store.engine=none", *options],
-        stdout=subprocess.PIPE,
-        stderr=subprocess.DEVNULL,
-        text=True,
-    )
-    for line in server.stdout:
-        if line.startswith("listening on "):
-            return server, line.split()[-1]
-    raise RuntimeError("the server did not start")
-
-
-def stop_server(server):
-    server.send_signal(signal.SIGTERM)
-    server.wait(timeout=PATIENCE_S)
-    server.stdout.close()
-
-
-def wait_until(condition, what):
-    end_s = time.monotonic() + PATIENCE_S
-    while not condition():
-        if time.monotonic() > end_s:
-            raise AssertionError(f"{what} within {PATIENCE_S} s")
-        time.sleep(0.05)
+from ctl_program import (
+    BUILD_DIR,
+    PATIENCE_S,
+    PROGRAM,
+    interrupt,
+    start_ctl,
+    start_server,
+    stop_server,
+    wait_until,
+)
 
 
 class CtlTest(unittest.TestCase):
@@ -251,42 +226,24 @@ class CtlTest(unittest.TestCase):
         self.assertIn("unrecognized", self.ctl("info", "--fast", code=2))
         self.ctl("info", "--timeout", "0.2", code=3, target="127.0.0.1:1")
 
-    def start_ctl(self, *arguments, target):
-        return subprocess.Popen(
-            ["/usr/bin/python3", PROGRAM, *arguments, "--timeout", str(PATIENCE_S)],
-            env=os.environ | {"PLUMESCOUT_SERVER": target},
-            stdout=subprocess.PIPE,
-            stderr=subprocess.PIPE,
-            text=True,
-        )
-
-    def interrupt(self, run):
-        """Its exit code."""
-        run.send_signal(signal.SIGINT)
-        try:
-            self.assertEqual(run.communicate(timeout=PATIENCE_S)[1], "")
-        finally:
-            run.kill()
-        return run.returncode
-
     def test_what_is_cut_off_is_not_done(self):
         for code, *arguments in ((130, "drain"), (130, "top", "--count", "2"), (0, "top")):
             with self.subTest(arguments=arguments):
                 with socket.create_server(("127.0.0.1", 0)) as silent:
                     silent.settimeout(PATIENCE_S)
                     target = f"127.0.0.1:{silent.getsockname()[1]}"
-                    run = self.start_ctl(*arguments, target=target)
+                    run = start_ctl(*arguments, target=target)
                     with silent.accept()[0]:  # now it waits for an answer
-                        self.assertEqual(self.interrupt(run), code)
+                        self.assertEqual(interrupt(run), (code, ""))
 
     def test_who_watches_until_interrupted_is_done_then(self):
         self.client.create_mission("hall")
         self.client.register("hall", "scout")
         for code, count in ((130, "100"), (0, "0")):
             watch = ("robots", "watch", "hall", "scout", "--count", count)
-            run = self.start_ctl(*watch, target=self.target)
+            run = start_ctl(*watch, target=self.target)
             self.assertTrue(run.stdout.readline())
-            self.assertEqual(self.interrupt(run), code)
+            self.assertEqual(interrupt(run), (code, ""))
 
     def test_drain_ends_the_server(self):
         server, target = start_server()
