@@ -37,7 +37,7 @@ double Elapsed_s(const RobotRecord& record, std::int64_t now_ns) {
          static_cast<double>(record.live_arrival_ns - now_ns) * kSecondsPerNanosecond;
 }
 
-// For so long beyond the time in which poses come as a rule.
+// How long it was not heard of, beyond the time in which poses come as a rule, seconds.
 double Unheard_s(const RobotRecord& record, std::int64_t now_ns) {
   constexpr double kPosesCome_s = 1.0;
   if (record.heard_ns == 0) return 0.0;
