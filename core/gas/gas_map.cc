@@ -10,6 +10,7 @@
 
 #include "absl/strings/str_cat.h"
 #include "core/gas/gas_scale.h"
+#include "core/gas/unread_discount.h"
 #include "core/types/status_macros.h"
 
 namespace plumescout {
@@ -310,6 +311,7 @@ void GasMap::Publish() const {
     fit.energy -= beside.explained;
     noise_ = NoiseOf(fit, prior_scale_);
   }
+  const UnreadDiscount discount(options_);
   known.ForEachFree([&](std::size_t i, AnchorCell cell) {
     const std::size_t index = lattice_.Index(GasCellOf(cell, inputs_.factor()));
     double deviation = engine_->mean_ppm(index);
@@ -318,6 +320,7 @@ void GasMap::Publish() const {
       deviation += beside.mean_ppm[index];
       variance += beside.variance_ppm2[index];
     }
+    deviation = discount.Of(deviation, variance);
     const GasEstimate gas =
         OffScale(options_, deviation, noise_.Of(options_, deviation) * variance);
     mean_ppm_[i] = static_cast<float>(gas.median_ppm);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/gas/unread_discount.h"
 #include "core/types/options.h"
 
 namespace plumescout {
@@ -32,12 +33,13 @@ inline double NoiseScale(const FieldFit& fit) {
 
 // Errors are larger where there is more gas, by what one scale for the whole field cannot say: gas
 // comes and goes where there is some. So the variance of a cell with the field's deviation d grows
-// by this, found in missions that were simulated (docs/decisions/0032-noise-by-level.md); the root
-// of lambda_p takes the unit away.
+// by this, found in missions that were simulated (docs/decisions/0032-noise-by-level.md), with what
+// UnreadDiscount leaves (0035-what-robots-pass-by.md) and without; the root of lambda_p takes the
+// unit away.
 inline double LevelScale(const GasOptions& gas, double deviation_ppm) {
-  constexpr double kPerLevel = 13.0;
   constexpr double kCleanAir = 0.5;
-  return kPerLevel *
+  const double per_level = UnreadDiscount::Holds(gas) ? 10.0 : 13.0;
+  return per_level *
          (kCleanAir + std::sqrt(gas.prior_precision_per_ppm2) * std::abs(deviation_ppm));
 }
 

@@ -108,6 +108,9 @@ absl::Status ScanInserter::Insert(const Pose2& sensor_pose, const Scan& scan,
   KeepBeams(sensor_pose, scan, masks);
   if (beams_.empty()) return absl::OkStatus();
   const Point2 sensor = sensor_pose.position();
+  const OccupancyOptions& options = grid.options();
+  const double depth_m = std::min(options.surface_depth_m, 0.5 * options.resolution_m);
+  if (depth_m > 0.0) PutBehindSurfaces(sensor, depth_m, beams_);
   PLUMESCOUT_RETURN_IF_ERROR(CheckCrossings(sensor, grid.geometry().resolution_m));
   Point2 low = sensor;
   Point2 high = sensor;

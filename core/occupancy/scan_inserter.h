@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "absl/status/status.h"
+#include "core/occupancy/beam.h"
 #include "core/occupancy/occupancy_grid.h"
 #include "core/types/pose2.h"
 #include "core/types/scan.h"
@@ -29,7 +30,8 @@ bool IsMasked(Point2 point, const std::vector<MaskDisc>& masks);
 // Beams without return clear up to max_range_m. NaN, non-positive and too long ranges are dropped
 // one by one. A beam that ends in a mask disc is dropped whole. A scan of dropped beams is no scan:
 // nothing changes. A scan may stand for several of the same place, `times` >= 1: as if it had been
-// inserted so often.
+// inserted so often. Hits lie behind their surface by the option surface_depth_m (beam.h), at most
+// half a cell, so that none goes through a wall of one.
 //
 // Errors, with nothing changed: kResourceExhausted if any beam would make the grid grow beyond its
 // limits; kInvalidArgument if the pose, an angle or max_range_m is not finite, or that not > 0, or
@@ -44,11 +46,6 @@ class ScanInserter {
                       const std::vector<MaskDisc>& masks, OccupancyGrid& grid, int times = 1);
 
  private:
-  struct Beam {
-    Point2 end;
-    bool hit = false;
-  };
-
   // The beams of `scan` that say something, into beams_.
   void KeepBeams(const Pose2& sensor_pose, const Scan& scan, const std::vector<MaskDisc>& masks);
   absl::Status CheckCrossings(Point2 sensor, double resolution_m) const;

@@ -56,6 +56,7 @@ absl::Status Validate(const OccupancyOptions& options) {
       .InRange("occupancy.clamp_log_odds", options.clamp_log_odds, least_clamp, kMaxLogOdds)
       .InRange("occupancy.max_extent_m", options.max_extent_m, 1.0, kMaxExtent_m)
       .InRange("occupancy.max_cell_count", options.max_cell_count, 4096, 16'000'000)
+      .InRange("occupancy.surface_depth_m", options.surface_depth_m, 0.0, 1.0)
       .status();
 }
 
@@ -77,6 +78,7 @@ absl::Status Validate(const GasOptions& options) {
                kMinHalfLife_s, kMaxTime_s)
       .InRange("gas.lattice_factor", options.lattice_factor, 1, kMostLatticeFactor)
       .InRange("gas.field_reach_m", options.field_reach_m, 0.0, 1e6)
+      .InRange("gas.unread_discount", options.unread_discount, 0.0, 10.0)
       .InRange("gas.refresh_period_s", options.refresh_period_s, 0.01, 3600.0)
       .InRange("gas.audit_period_epochs", options.audit_period_epochs, 0, 1'000'000)
       .Require(options.estimate_noise || options.precisions == GasPrecisions::kFixed,
@@ -200,11 +202,18 @@ absl::Status Validate(const MissionOptions& options) {
       .status();
 }
 
+OccupancyOptions PublishedOccupancyOptions() {
+  OccupancyOptions occupancy;
+  occupancy.surface_depth_m = 0.0;
+  return occupancy;
+}
+
 GasOptions PublishedGasOptions() {
   GasOptions gas;
   gas.observation_precision_per_ppm2 = 10.0;
   gas.background_precision_per_ppm2 = 0.001;
   gas.noise_by_level = false;
+  gas.unread_discount = 0.0;
   return gas;
 }
 

@@ -28,7 +28,12 @@ struct OccupancyOptions {
   double clamp_log_odds = 3.5;  // beyond the log-odds of both thresholds, at most 50
   double max_extent_m = 200.0;  // the map never grows beyond this width or height, [1, 20000]
   std::int64_t max_cell_count = 4'000'000;  // nor beyond this many cells
+  // A return counts so far behind the surface that it came from, half a cell at most, [0, 1]; 0:
+  // where it ends (docs/decisions/0034-returns-behind-their-surface.md).
+  double surface_depth_m = 0.01;
 };
+// As of [XIT]: a return counts where it ends.
+OccupancyOptions PublishedOccupancyOptions();
 
 // Gas posterior; design of the GMRF with precisions in ppm^-2. Of [XIT] Table I are lambda_p, the
 // unit, and m_0; lambda_o and lambda_d are ours (docs/decisions/0029-the-default-field.md), for the
@@ -71,10 +76,13 @@ struct GasOptions {
   // (core/gas/prior_scale.h); those above are then where that begins. Learned ones need
   // estimate_noise.
   GasPrecisions precisions = GasPrecisions::kFixed;
+  // By how much less than the field says there is where robots that seek gas have not read
+  // (core/gas/unread_discount.h), [0, 10]; 0: as it says.
+  double unread_discount = 0.6;
 };
 
-// The same with the precisions of [XIT] Table I, lambda_o = 10 and lambda_d = 0.001, and one scale
-// of noise.
+// The same with the precisions of [XIT] Table I, lambda_o = 10 and lambda_d = 0.001, one scale of
+// noise, and the field told as it is.
 GasOptions PublishedGasOptions();
 
 inline constexpr int kMostLatticeFactor = 16;

@@ -52,6 +52,7 @@ absl::StatusOr<EpisodeOptions> MakeEpisodeOptions(const ExperimentOptions& optio
   episode.mission = "xit-episode";
   episode.create.emplace();
   episode.create->seed = options.seed;
+  episode.create->occupancy = PublishedOccupancyOptions();
   episode.create->gas = PublishedGasOptions();
   episode.create->planning.strategy = "xit_gff";
   PLUMESCOUT_RETURN_IF_ERROR(ApplyStrategyRow(episode.create->planning));

@@ -58,6 +58,7 @@ SceneMakerOptions SceneOptions(const ExperimentOptions& options) {
 absl::StatusOr<MissionOptions> MakeMissionOptions(std::uint64_t seed) {
   MissionOptions mission;
   mission.seed = seed;
+  mission.occupancy = PublishedOccupancyOptions();
   mission.gas = PublishedGasOptions();
   mission.gas.background_mean_ppm = kAmbient_ppm;
   mission.gas.estimate_noise = false;

@@ -107,7 +107,9 @@ absl::StatusOr<StudyRow> MakeStudyRow(const std::string& name, const std::string
   planning.draw_goals = with_the_papers_goals;
   planning.fallback_to_unobserved = !with_the_papers_goals;
   if (with_the_papers_goals) planning.max_connection_radius_m = 0.0;
-  // Rows are compared in the field of [XIT] and by the entropy of its own variances, as papers are.
+  // Rows are compared in maps and the field of [XIT], by the entropy of its own variances, as
+  // papers are.
+  row.mission.occupancy = PublishedOccupancyOptions();
   row.mission.gas = PublishedGasOptions();
   row.mission.gas.estimate_noise = false;
   return row;

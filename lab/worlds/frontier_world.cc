@@ -71,7 +71,8 @@ Grid<float> Diffuse(const Grid<CellState>& occupancy, const Grid<float>& held_pp
 
 MissionOptions MakeOptions(WgfdScope scope, std::uint64_t seed) {
   MissionOptions options;
-  options.gas = PublishedGasOptions();  // a figure of [XIT]
+  options.occupancy = PublishedOccupancyOptions();  // a figure of [XIT]
+  options.gas = PublishedGasOptions();
   options.occupancy.resolution_m = kResolution_m;
   options.frontier.wgfd_scope = scope;
   options.frontier.min_gas_cell_count = 3;     // the width of a corridor

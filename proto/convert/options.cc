@@ -31,6 +31,7 @@ void Visit(OneOf<OccupancyOptions> auto& options, auto& field) {
   field("clamp_log_odds", options.clamp_log_odds);
   field("max_extent_m", options.max_extent_m);
   field("max_cell_count", options.max_cell_count);
+  field("surface_depth_m", options.surface_depth_m);
 }
 
 void Visit(OneOf<GasOptions> auto& options, auto& field) {
@@ -48,6 +49,7 @@ void Visit(OneOf<GasOptions> auto& options, auto& field) {
   field("estimate_noise", options.estimate_noise);
   field("noise_by_level", options.noise_by_level);
   field("precisions", options.precisions);
+  field("unread_discount", options.unread_discount);
 }
 
 void Visit(OneOf<GasSpecies> auto& species, auto& field) {
@@ -293,6 +295,7 @@ absl::StatusOr<MissionOptions> FromProto(const v1::MissionOptions& proto,
 MissionOptions RecordedDefaults() {
   MissionOptions options;
   options.keep_scans = false;
+  options.occupancy = PublishedOccupancyOptions();
   options.gas = PublishedGasOptions();
   options.gas.estimate_noise = false;
   return options;

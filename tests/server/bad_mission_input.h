@@ -54,7 +54,8 @@ inline BadInputs BadOccupancyOptions() {
       .Values(o + "miss_log_odds", {"nan", "-inf", "1", "0", "-1e300"})
       .Values(o + "clamp_log_odds", {"nan", "inf", "-1", "0", "0.1", "51"})
       .Values(o + "max_extent_m", {"nan", "inf", "-1", "0", "20001"})
-      .Values(o + "max_cell_count", {"-1", "0", "16000001", "9223372036854775807"});
+      .Values(o + "max_cell_count", {"-1", "0", "16000001", "9223372036854775807"})
+      .Values(o + "surface_depth_m", {"nan", "inf", "-0.1", "1.1"});
 }
 
 inline BadInputs BadGasOptions() {
@@ -69,6 +70,7 @@ inline BadInputs BadGasOptions() {
       .Values(g + "audit_period_epochs", {"-1", "1000001"})
       .Values(g + "field_reach_m", {"nan", "inf", "-1", "1.1e6"})
       .Values(g + "observation_stddev_share", {"nan", "inf", "-0.1", "11"})
+      .Values(g + "unread_discount", {"nan", "inf", "-0.1", "11"})
       .Values(g + "scale", {"-1", "99"})
       .Values(g + "precisions", {"-1", "99"})
       .Values(g + "lattice_factor", {"-1", "0", "17"});

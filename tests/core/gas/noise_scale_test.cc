@@ -90,8 +90,8 @@ TEST(NoiseScaleTest, AFieldKnowsTheEnergyOfItsReadings) {
 
 TEST(NoiseScaleTest, LevelsHaveTheUnitOfTheField) {
   GasOptions gas;
-  EXPECT_EQ(LevelScale(gas, 0.0), 6.5);
-  EXPECT_NEAR(LevelScale(gas, 10.0), 13.0 * (0.5 + 10.0 * std::sqrt(3.0)), 1e-12);
+  EXPECT_EQ(LevelScale(gas, 0.0), 5.0);
+  EXPECT_NEAR(LevelScale(gas, 10.0), 10.0 * (0.5 + 10.0 * std::sqrt(3.0)), 1e-12);
   EXPECT_EQ(LevelScale(gas, -10.0), LevelScale(gas, 10.0));
   const double in_ppm = LevelScale(gas, 10.0);
   gas.prior_precision_per_ppm2 *= 1e-6;  // the same gas in ppb
@@ -111,7 +111,10 @@ TEST(NoiseScaleTest, IsByLevelWhereFieldsAreLinearAndPrecisionsGiven) {
   gas.precisions = GasPrecisions::kLearned;
   EXPECT_FALSE(HasNoiseByLevel(gas));
   EXPECT_EQ((NoiseEstimate{.scale = 3.0, .level_scale = 2.0}).Of(gas, 5.0), 3.0);
-  EXPECT_EQ((NoiseEstimate{.scale = 3.0, .level_scale = 2.0}).Of({}, 0.0), 13.0);
+  EXPECT_EQ((NoiseEstimate{.scale = 3.0, .level_scale = 2.0}).Of({}, 0.0), 10.0);
+  gas = {};
+  gas.unread_discount = 0.0;
+  EXPECT_EQ(LevelScale(gas, 0.0), 6.5);
 }
 
 // By the means of a dense solution: each reading's part of the energy is lambda z (z - m).
@@ -137,7 +140,7 @@ TEST(NoiseScaleTest, VariancesGrowWithTheLevelAndWithWhatReadingsSayBeside) {
       weights += r.precision / gas.observation_precision_per_ppm2;
     }
     const double beside = NoiseScale({.energy = energy, .readings = std::min(40.0, weights)});
-    EXPECT_NEAR(map.quality().clean_air_scale, 6.5 * beside, 1e-3 * beside);
+    EXPECT_NEAR(map.quality().clean_air_scale, 5.0 * beside, 1e-3 * beside);
     for (std::size_t i = 0; i < states.size(); ++i) {
       if (states[i] != CellState::kFree) continue;
       const double expected =

@@ -161,7 +161,7 @@ TEST(Mission, EveryReadingIsCountedWhateverBecomesOfIt) {
   EXPECT_TRUE(observe(kBegin_ns + kHour_ns, middle, GasReading{1.0, 0.0}).ok()) << "from later";
   EXPECT_TRUE(observe(kBegin_ns, middle, GasReading{0.0, 1e-9}).ok()) << "all but certain";
   EXPECT_TRUE(observe(kBegin_ns, middle, GasReading{1e6, 1e12}).ok()) << "all but void";
-  EXPECT_TRUE(observe(kBegin_ns, {1.5, 2.97, 0.0}, GasReading{1.0, 0.0}).ok()) << "in a wall";
+  EXPECT_TRUE(observe(kBegin_ns, {1.5, 3.02, 0.0}, GasReading{1.0, 0.0}).ok()) << "in a wall";
   EXPECT_TRUE(observe(kBegin_ns, {1.5, 4.0, 0.0}, GasReading{1.0, 0.0}).ok()) << "in the unknown";
   EXPECT_TRUE(observe(kBegin_ns, {900.0, -900.0, 0.0}, GasReading{1.0, 0.0}).ok()) << "off the map";
   EXPECT_FALSE(observe(kBegin_ns, {1001.0, 0.0, 0.0}, GasReading{1.0, 0.0}).ok());

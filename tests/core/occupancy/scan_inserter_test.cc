@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "core/types/rng.h"
 
@@ -25,7 +26,7 @@ Scan CrossScan(std::vector<float> ranges_m, double start_angle_rad = 0.0) {
   return {start_angle_rad, kRightAngle_rad, 3.0, std::move(ranges_m)};
 }
 
-const OccupancyOptions kOptions;
+const OccupancyOptions kOptions = PublishedOccupancyOptions();
 const double kPassed = ProbabilityOf(kOptions.miss_log_odds);
 const double kHit = ProbabilityOf(kOptions.hit_log_odds);
 
@@ -255,6 +256,21 @@ TEST(ScanInserter, EqualsEveryBeamClippedAgainstEveryCellOnRandomScans) {
 }
 
 // Beams of 100 m that differ by a hair: on a fine grid each crosses ten thousand cells.
+// Two beams that end 1 mm before the wall that they come from.
+TEST(ScanInserter, HitsLieBehindTheirSurfaceByHalfACellAtMost) {
+  const Scan scan = {-0.05, 0.1, 3.0, {0.949F, 0.949F}};
+  const Point2 before{0.95, 0.05};
+  const Point2 wall{1.05, 0.05};
+  for (const auto& [surface_depth_m, hit] : {std::pair{0.0, before}, {0.01, wall}, {1.0, wall}}) {
+    OccupancyOptions options;
+    options.surface_depth_m = surface_depth_m;
+    OccupancyGrid grid(options);
+    ASSERT_TRUE(ScanInserter().Insert(kSensor, scan, {}, grid).ok());
+    EXPECT_NEAR(grid.Probability(grid.geometry().CellAt(hit)), kHit, kTolerance);
+    EXPECT_EQ(grid.Probability(grid.geometry().CellAt({1.15, 0.05})), 0.5);
+  }
+}
+
 TEST(ScanInserter, BeamsThatCrossTooManyCellsAreRefused) {
   OccupancyOptions options;
   options.resolution_m = 0.01;

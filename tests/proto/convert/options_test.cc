@@ -65,7 +65,7 @@ PlanningOptions UnlikePlanning() {
 
 MissionOptions Unlike() {
   MissionOptions options;
-  options.occupancy = {0.2, 0.3, 0.2, 0.7, 1.0, -0.5, 4.0, 50.0, 10'000};
+  options.occupancy = {0.2, 0.3, 0.2, 0.7, 1.0, -0.5, 4.0, 50.0, 10'000, 0.02};
   options.gas = {1.0, 2.0, 0.01, 3.0, 60.0, 2, 5.0, 0.1};
   options.frontier = {9, 6, 0.5, 0.25, 20.0, 3.0, 4.0, WgfdScope::kLocal};
   options.planning = UnlikePlanning();
@@ -81,6 +81,7 @@ MissionOptions Unlike() {
   options.gas.scale = GasScale::kSquareRoot;
   options.gas.estimate_noise = false;
   options.gas.noise_by_level = false;
+  options.gas.unread_discount = 0.25;
   options.keep_out = {{{{1, 2}, {3, 4}, {5, 7}}, "spill"}, {{{0, 0}, {1, 0}, {1, 1}, {0, 1}}}};
   options.gas_species = {{"methane", {}, {}, {}, {}}, {"ozone", 30.0, {}, 0.5, 0.25}};
   options.home = Point2{-1.0, 2.0};
@@ -98,6 +99,7 @@ TEST(OptionsTest, OptionsSurviveTheRoundTrip) {
   EXPECT_EQ(back->seed, Unlike().seed);
   EXPECT_EQ(back->objective.kind, ObjectiveKind::kFindSources);
   EXPECT_EQ(back->objective.deadline_s, 900.0);
+  EXPECT_EQ(back->occupancy.surface_depth_m, 0.02);
   EXPECT_EQ(back->robot_silence_s, 12.5);
   EXPECT_EQ(back->return_home_below_battery_share, 0.25);
   EXPECT_EQ(back->memory_budget_bytes, 100'000'000);
@@ -108,6 +110,7 @@ TEST(OptionsTest, OptionsSurviveTheRoundTrip) {
   EXPECT_EQ(back->gas.scale, GasScale::kSquareRoot);
   EXPECT_FALSE(back->gas.estimate_noise);
   EXPECT_FALSE(back->gas.noise_by_level);
+  EXPECT_EQ(back->gas.unread_discount, 0.25);
   EXPECT_EQ(back->frontier.fixed_gas_threshold_ppm, 4.0);
   EXPECT_EQ(back->keep_out, Unlike().keep_out);
   EXPECT_EQ(back->gas_species, Unlike().gas_species);
@@ -299,6 +302,22 @@ TEST(OptionsTest, JournalsThatDoNotNameTheNoiseOfMapsDidNotEstimateIt) {
   };
   EXPECT_FALSE(of(v1::MissionOptions()));
   EXPECT_TRUE(of(ToProto(MissionOptions())));
+}
+
+TEST(OptionsTest, JournalsThatDoNotNameTheDepthOfSurfacesTookReturnsWhereTheyEnd) {
+  const auto of = [](const v1::MissionOptions& proto) {
+    return FromProto(proto, RecordedDefaults(), "options")->occupancy.surface_depth_m;
+  };
+  EXPECT_EQ(of(v1::MissionOptions()), 0.0);
+  EXPECT_EQ(of(ToProto(MissionOptions())), MissionOptions().occupancy.surface_depth_m);
+}
+
+TEST(OptionsTest, JournalsThatDoNotNameTheDiscountOfTheUnreadToldTheFieldAsItIs) {
+  const auto of = [](const v1::MissionOptions& proto) {
+    return FromProto(proto, RecordedDefaults(), "options")->gas.unread_discount;
+  };
+  EXPECT_EQ(of(v1::MissionOptions()), 0.0);
+  EXPECT_EQ(of(ToProto(MissionOptions())), MissionOptions().gas.unread_discount);
 }
 
 TEST(OptionsTest, JournalsThatDoNotNameNoiseByLevelHadOneScale) {

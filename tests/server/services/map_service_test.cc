@@ -122,7 +122,7 @@ TEST_F(MapServiceTest, EveryReadingIsCountedOnTheMap) {
   };
   add(middle, {1.0, 0.0});
   add(middle, {1.0, 1e12});
-  add({2.0, 3.97, 0.0}, {1.0, 0.0});  // in a wall
+  add({2.0, 4.02, 0.0}, {1.0, 0.0});  // in a wall
   add({500.0, 1.5, 0.0}, {1.0, 0.0});
   add(middle, {-1.0, 0.0});
   const auto ingested = Ingest(kRobot, lease, batch);

@@ -1,0 +1,74 @@
+// SPDX-FileCopyrightText: PlumeScout contributors
+// SPDX-License-Identifier: Apache-2.0
+#include "core/gas/unread_discount.h"
+
+#include <gtest/gtest.h>
+
+#include "core/gas/gas_map.h"
+
+namespace plumescout {
+namespace unread_discount_test {
+
+TEST(UnreadDiscountTest, TakesMoreTheLessIsKnown) {
+  GasOptions gas;
+  gas.unread_discount = 0.5;
+  const UnreadDiscount discount(gas);
+  const double unread_ppm2 = OpenLatticeVariance_ppm2(gas);
+  EXPECT_EQ(discount.Of(8.0, 0.0), 8.0);
+  EXPECT_NEAR(discount.Of(8.0, unread_ppm2), 8.0 / 1.25, 1e-12);
+  EXPECT_NEAR(discount.Of(8.0, 2.0 * unread_ppm2), 4.0, 1e-12);
+  EXPECT_NEAR(discount.Of(-8.0, 2.0 * unread_ppm2), -4.0, 1e-12);
+  gas.unread_discount = 0.0;
+  EXPECT_EQ(UnreadDiscount(gas).Of(8.0, unread_ppm2), 8.0);
+}
+
+TEST(UnreadDiscountTest, IsTheSameInAnyUnit) {
+  GasOptions ppm;
+  GasOptions ppb = ppm;
+  for (double* precision : {&ppb.prior_precision_per_ppm2, &ppb.observation_precision_per_ppm2,
+                            &ppb.background_precision_per_ppm2}) {
+    *precision *= 1e-6;
+  }
+  EXPECT_NEAR(UnreadDiscount(ppb).Of(8e3, 0.2e6), 1e3 * UnreadDiscount(ppm).Of(8.0, 0.2), 1e-9);
+}
+
+TEST(UnreadDiscountTest, IsOfLinearFieldsWithGivenPrecisions) {
+  EXPECT_TRUE(UnreadDiscount::Holds(GasOptions{}));
+  EXPECT_FALSE(UnreadDiscount::Holds(PublishedGasOptions()));
+  GasOptions gas;
+  gas.scale = GasScale::kSquareRoot;
+  EXPECT_EQ(UnreadDiscount(gas).Of(8.0, 1.0), 8.0);
+  gas = {};
+  gas.precisions = GasPrecisions::kLearned;
+  EXPECT_EQ(UnreadDiscount(gas).Of(8.0, 1.0), 8.0);
+}
+
+// Towards the background, which is where the field itself tends to.
+TEST(UnreadDiscountTest, MapsTellWhatItLeavesOfTheField) {
+  const Grid<CellState> states({0.0, 0.0, 0.1, 40, 3}, CellState::kFree);
+  GasOptions gas;
+  gas.background_mean_ppm = 400.0;
+  GasOptions whole = gas;
+  whole.unread_discount = 0.0;
+  GasMap map(gas);
+  GasMap field(whole);
+  for (GasMap* each : {&map, &field}) {
+    each->Add(0, {0.15, 0.15}, {900.0});
+    ASSERT_TRUE(each->Refresh(states, 0).ok());
+  }
+  EXPECT_EQ(map.variance_ppm2(), field.variance_ppm2());
+  const UnreadDiscount discount(gas);
+  for (std::size_t i = 0; i < states.size(); ++i) {
+    const double expected_ppm =
+        400.0 + discount.Of(field.mean_ppm()[i] - 400.0, field.variance_ppm2()[i]);
+    EXPECT_NEAR(map.mean_ppm()[i], expected_ppm, 1e-3);
+  }
+  const auto left = [&](Cell cell) {
+    return (map.mean_ppm()[cell] - 400.0) / (field.mean_ppm()[cell] - 400.0);
+  };
+  EXPECT_GT(left({1, 1}), 0.99) << "where it was read";
+  EXPECT_LT(left({20, 1}), 0.8) << "1.9 m away";
+}
+
+}  // namespace unread_discount_test
+}  // namespace plumescout
