@@ -9,7 +9,7 @@ namespace plumescout {
 // Robots that seek gas read where there is most of it, and what they pass by is less than a field
 // says that is as smooth beside their ways as along them (sampling that is preferential). So what a
 // map tells of a cell is the field's deviation from the background over
-//   1 + (unread_discount * v / epsilon_inf)^2,
+//   1 + (unread_discount_ratio * v / epsilon_inf)^2,
 // with the cell's variance v and OpenLatticeVariance_ppm2, epsilon_inf, of what nobody has read.
 // Numbers were found in simulated missions (docs/decisions/0035-what-robots-pass-by.md), with
 // fields that are linear and whose precisions are given; of others the field is told as it is.
@@ -17,10 +17,10 @@ class UnreadDiscount {
  public:
   // REQUIRES: Validate(gas).ok().
   explicit UnreadDiscount(const GasOptions& gas)
-      : per_ppm2_(Holds(gas) ? gas.unread_discount / OpenLatticeVariance_ppm2(gas) : 0.0) {}
+      : per_ppm2_(Holds(gas) ? gas.unread_discount_ratio / OpenLatticeVariance_ppm2(gas) : 0.0) {}
 
   static bool Holds(const GasOptions& gas) {
-    return gas.unread_discount > 0.0 && gas.scale == GasScale::kLinear &&
+    return gas.unread_discount_ratio > 0.0 && gas.scale == GasScale::kLinear &&
            gas.precisions == GasPrecisions::kFixed;
   }
 

@@ -78,7 +78,7 @@ absl::Status Validate(const GasOptions& options) {
                kMinHalfLife_s, kMaxTime_s)
       .InRange("gas.lattice_factor", options.lattice_factor, 1, kMostLatticeFactor)
       .InRange("gas.field_reach_m", options.field_reach_m, 0.0, 1e6)
-      .InRange("gas.unread_discount", options.unread_discount, 0.0, 10.0)
+      .InRange("gas.unread_discount_ratio", options.unread_discount_ratio, 0.0, 10.0)
       .InRange("gas.refresh_period_s", options.refresh_period_s, 0.01, 3600.0)
       .InRange("gas.audit_period_epochs", options.audit_period_epochs, 0, 1'000'000)
       .Require(options.estimate_noise || options.precisions == GasPrecisions::kFixed,
@@ -213,7 +213,7 @@ GasOptions PublishedGasOptions() {
   gas.observation_precision_per_ppm2 = 10.0;
   gas.background_precision_per_ppm2 = 0.001;
   gas.noise_by_level = false;
-  gas.unread_discount = 0.0;
+  gas.unread_discount_ratio = 0.0;
   return gas;
 }
 

@@ -78,7 +78,7 @@ struct GasOptions {
   GasPrecisions precisions = GasPrecisions::kFixed;
   // By how much less than the field says there is where robots that seek gas have not read
   // (core/gas/unread_discount.h), [0, 10]; 0: as it says.
-  double unread_discount = 0.6;
+  double unread_discount_ratio = 0.6;
 };
 
 // The same with the precisions of [XIT] Table I, lambda_o = 10 and lambda_d = 0.001, one scale of

@@ -49,7 +49,7 @@ void Visit(OneOf<GasOptions> auto& options, auto& field) {
   field("estimate_noise", options.estimate_noise);
   field("noise_by_level", options.noise_by_level);
   field("precisions", options.precisions);
-  field("unread_discount", options.unread_discount);
+  field("unread_discount_ratio", options.unread_discount_ratio);
 }
 
 void Visit(OneOf<GasSpecies> auto& species, auto& field) {

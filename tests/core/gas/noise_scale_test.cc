@@ -113,7 +113,7 @@ TEST(NoiseScaleTest, IsByLevelWhereFieldsAreLinearAndPrecisionsGiven) {
   EXPECT_EQ((NoiseEstimate{.scale = 3.0, .level_scale = 2.0}).Of(gas, 5.0), 3.0);
   EXPECT_EQ((NoiseEstimate{.scale = 3.0, .level_scale = 2.0}).Of({}, 0.0), 10.0);
   gas = {};
-  gas.unread_discount = 0.0;
+  gas.unread_discount_ratio = 0.0;
   EXPECT_EQ(LevelScale(gas, 0.0), 6.5);
 }
 

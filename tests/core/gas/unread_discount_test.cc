@@ -11,14 +11,14 @@ namespace unread_discount_test {
 
 TEST(UnreadDiscountTest, TakesMoreTheLessIsKnown) {
   GasOptions gas;
-  gas.unread_discount = 0.5;
+  gas.unread_discount_ratio = 0.5;
   const UnreadDiscount discount(gas);
   const double unread_ppm2 = OpenLatticeVariance_ppm2(gas);
   EXPECT_EQ(discount.Of(8.0, 0.0), 8.0);
   EXPECT_NEAR(discount.Of(8.0, unread_ppm2), 8.0 / 1.25, 1e-12);
   EXPECT_NEAR(discount.Of(8.0, 2.0 * unread_ppm2), 4.0, 1e-12);
   EXPECT_NEAR(discount.Of(-8.0, 2.0 * unread_ppm2), -4.0, 1e-12);
-  gas.unread_discount = 0.0;
+  gas.unread_discount_ratio = 0.0;
   EXPECT_EQ(UnreadDiscount(gas).Of(8.0, unread_ppm2), 8.0);
 }
 
@@ -49,7 +49,7 @@ TEST(UnreadDiscountTest, MapsTellWhatItLeavesOfTheField) {
   GasOptions gas;
   gas.background_mean_ppm = 400.0;
   GasOptions whole = gas;
-  whole.unread_discount = 0.0;
+  whole.unread_discount_ratio = 0.0;
   GasMap map(gas);
   GasMap field(whole);
   for (GasMap* each : {&map, &field}) {
