@@ -104,7 +104,8 @@ class GasMap {
   // As of the last refresh, on a lattice that covers its states; NaN off free cells, and everywhere
   // if that failed. Empty before the first. Cost: O(cells + sites log sites) at the first call
   // after a change. In a field of roots it is the median, see GasEstimate; else what UnreadDiscount
-  // leaves of the field's mean, which is no farther from the exact one than certified, either.
+  // leaves of the field's mean. The certificate is of that mean; see there what it says of the
+  // rest.
   const Grid<float>& mean_ppm() const;
   // Of the model as its precisions are given, which plans go by: on the scale of the field, and in
   // the unit in which the prior has the precisions of the options, also where they are learned.

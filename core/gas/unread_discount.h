@@ -24,7 +24,8 @@ class UnreadDiscount {
            gas.precisions == GasPrecisions::kFixed;
   }
 
-  // What is told of a deviation.
+  // What is told of a deviation. If that errs by e ppm and the variance by a small share r of
+  // itself, what is told errs by e + 2 r of itself at most.
   double Of(double deviation_ppm, double variance_ppm2) const {
     const double unread = per_ppm2_ * variance_ppm2;
     return deviation_ppm / (1.0 + unread * unread);
