@@ -76,6 +76,8 @@ struct RobotRecord {
   // Since when it has wanted one or another such goal without a plan that led to one, in sample
   // time, though it may want none for now; 0: it has not.
   std::int64_t wanted_since_ns = 0;
+  // How far along its live plan its poses have told that it is, in the plan's time.
+  double live_gone_s = 0.0;
 };
 
 // Whether home is where it drives, whatever it asks for.

@@ -45,6 +45,13 @@ void WantNothing(RobotRecord& record) {
   record.wanted_since_ns = 0;
 }
 
+void GoOn(RobotRecord& record) {
+  if (record.live_trajectory == nullptr) return;
+  const std::optional<NearestTime> there =
+      FindOnWay(*record.live_trajectory, record.state.pose.position(), record.live_gone_s);
+  if (there) record.live_gone_s = there->time_s;
+}
+
 }  // namespace
 
 Fleet::Fleet(double robot_silence_s, double low_battery_share)
@@ -159,6 +166,7 @@ void Fleet::EndPlan(Member& member) {
   member.record.live_trajectory = nullptr;
   member.record.live_goal.reset();
   member.record.live_arrival_ns = 0;
+  member.record.live_gone_s = 0.0;
   member.record.assigned_plan = 0;
 }
 
@@ -202,6 +210,7 @@ void Fleet::Advance(const RobotId& robot, const Observation& observation, bool r
     state.pose = plumescout::InMission(state.frame, observation.pose);
     state.pose.yaw_rad = WrapAngle_rad(state.pose.yaw_rad);
     state.has_pose = true;
+    GoOn(member.record);
     if (std::holds_alternative<PoseCorrection>(observation.payload)) {
       member.odometer.GoOnFrom(state.pose.position());
     }
@@ -266,6 +275,7 @@ absl::StatusOr<PlanId> Fleet::Issue(const Plan& plan, std::int64_t now_ns, bool 
       plan.chosen < 0 ? nullptr : std::make_shared<const Trajectory>(plan.trajectory);
   member.record.live_goal = chosen;
   member.record.live_arrival_ns = now_ns + Nanoseconds(plan.trajectory.duration_s);
+  member.record.live_gone_s = 0.0;
   member.record.assigned_plan = assigned ? member.record.last_plan : 0;
   if (chosen && !MakesWay(chosen)) WantNothing(member.record);
   Want(WantedGoal(plan), now_ns, member.record);

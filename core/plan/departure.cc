@@ -20,7 +20,7 @@ namespace {
 Pose2 ExpectedPose(const RobotRecord& robot, double latency_s, std::int64_t now_ns) {
   if (latency_s == 0.0 || robot.live_trajectory == nullptr) return robot.state.pose;
   const std::optional<NearestTime> now =
-      FindNearest(*robot.live_trajectory, robot.state.pose.position());
+      FindOnWay(*robot.live_trajectory, robot.state.pose.position(), robot.live_gone_s);
   if (!now || !(now->distance_m <= kOffTrajectory_m)) return robot.state.pose;
   return PoseAt(*robot.live_trajectory, Progress_s(robot, now_ns) + latency_s);
 }

@@ -209,7 +209,7 @@ absl::StatusOr<IntendedPath> RestOfPlan(const Belief& belief, const RobotId& rob
                       absl::StrCat("plan ", plan, " has nothing left to drive"));
   }
   const Trajectory& live = *record.live_trajectory;
-  const double now_s = FindNearest(live, record.state.pose.position())->time_s;
+  const double now_s = FindOnWay(live, record.state.pose.position(), record.live_gone_s)->time_s;
   IntendedPath rest{{PoseAt(live, now_s).position()}, *record.live_goal};
   for (const Waypoint& waypoint : live.waypoints) {
     if (waypoint.arrival_time_s <= now_s) continue;

@@ -43,7 +43,8 @@ std::optional<WayLeft> FindWayLeft(const RobotRecord& robot, Point2 start, std::
       !IsOnItsWay(robot, now_ns)) {
     return std::nullopt;
   }
-  const std::optional<NearestTime> nearest = FindNearest(*robot.live_trajectory, start);
+  const std::optional<NearestTime> nearest =
+      FindOnWay(*robot.live_trajectory, start, robot.live_gone_s);
   if (!nearest || !(nearest->distance_m <= kOnWay_m)) return std::nullopt;
   // Who is on the move may begin farther on than it is, when it will have its plan. Who stands by
   // plan leaves at the plan's time, and may know its place but nearly.

@@ -94,7 +94,7 @@ bool IsOnItsWay(const RobotRecord& record, std::int64_t now_ns) {
   const Trajectory* const way = record.live_trajectory.get();
   if (way == nullptr || way->waypoints.empty()) return false;
   const double elapsed_s = Elapsed_s(record, now_ns);
-  const NearestTime nearest = *FindNearest(*way, record.state.pose.position());
+  const NearestTime nearest = *FindOnWay(*way, record.state.pose.position(), record.live_gone_s);
   const bool at_start = nearest.time_s <= way->waypoints.front().dwell_s;
   const bool may_set_out = at_start && elapsed_s < kSetsOut_s;
   return elapsed_s <= 2.0 * way->duration_s + kPatience_s &&
@@ -110,7 +110,7 @@ double Progress_s(const RobotRecord& record, std::int64_t now_ns) {
   const Trajectory& way = *record.live_trajectory;
   const Point2 place = record.state.pose.position();
   const double elapsed_s = Elapsed_s(record, now_ns);
-  const double there_s = FindNearest(way, place)->time_s;
+  const double there_s = FindOnWay(way, place, record.live_gone_s)->time_s;
   for (const Waypoint& waypoint : way.waypoints) {
     const double leaves_s = waypoint.arrival_time_s + waypoint.dwell_s;
     const bool stands = waypoint.dwell_s > 0.0 && elapsed_s < leaves_s &&

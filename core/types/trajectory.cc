@@ -46,6 +46,14 @@ double ShareOfTime(const Waypoint& from, const Waypoint& to, double share_of_way
   return share_of_way * speeds_mps / (from.speed_mps + speed_there_mps);
 }
 
+// The share of the way from `from` to `to` that is behind the robot at `time_s`, [0, 1].
+double ShareAt(const Waypoint& from, const Waypoint& to, double time_s) {
+  const double departure_s = from.arrival_time_s + from.dwell_s;
+  const double duration_s = to.arrival_time_s - departure_s;
+  if (!(duration_s > 0.0)) return 0.0;
+  return ShareOfWay(from, to, std::clamp((time_s - departure_s) / duration_s, 0.0, 1.0));
+}
+
 // The share of the segment at which it is nearest to `place`.
 double NearestShare(Point2 from, Point2 to, Point2 place) {
   const double dx_m = to.x_m - from.x_m;
@@ -54,6 +62,24 @@ double NearestShare(Point2 from, Point2 to, Point2 place) {
   if (!(length_m2 > 0.0)) return 0.0;
   const double along_m2 = (place.x_m - from.x_m) * dx_m + (place.y_m - from.y_m) * dy_m;
   return std::clamp(along_m2 / length_m2, 0.0, 1.0);
+}
+
+// Where a leg is nearest to a place.
+struct OnLeg {
+  double share = 0.0;  // of the leg, by length
+  double time_s = 0.0;
+  double distance_m = 0.0;
+};
+
+// From `least_share` of it on.
+OnLeg NearestOnLeg(const Waypoint& from, const Waypoint& to, Point2 place, double least_share) {
+  const double share =
+      std::max(least_share, NearestShare(from.pose.position(), to.pose.position(), place));
+  const Point2 nearest = {std::lerp(from.pose.x_m, to.pose.x_m, share),
+                          std::lerp(from.pose.y_m, to.pose.y_m, share)};
+  const double departure_s = from.arrival_time_s + from.dwell_s;
+  return {share, std::lerp(departure_s, to.arrival_time_s, ShareOfTime(from, to, share)),
+          Distance_m(nearest, place)};
 }
 
 }  // namespace
@@ -73,17 +99,31 @@ std::optional<NearestTime> FindNearest(const Trajectory& trajectory, Point2 plac
   if (waypoints.empty()) return std::nullopt;
   NearestTime best = {waypoints[0].dwell_s, Distance_m(waypoints[0].pose.position(), place)};
   for (std::size_t i = 1; i < waypoints.size(); ++i) {
-    const Waypoint& from = waypoints[i - 1];
-    const Waypoint& to = waypoints[i];
-    const double share = NearestShare(from.pose.position(), to.pose.position(), place);
-    const Point2 nearest = {std::lerp(from.pose.x_m, to.pose.x_m, share),
-                            std::lerp(from.pose.y_m, to.pose.y_m, share)};
-    const double distance_m = Distance_m(nearest, place);
-    if (!(distance_m < best.distance_m)) continue;
-    const double departure_s = from.arrival_time_s + from.dwell_s;
-    best = {std::lerp(departure_s, to.arrival_time_s, ShareOfTime(from, to, share)), distance_m};
+    const OnLeg there = NearestOnLeg(waypoints[i - 1], waypoints[i], place, 0.0);
+    if (there.distance_m < best.distance_m) best = {there.time_s, there.distance_m};
   }
   return best;
+}
+
+std::optional<NearestTime> FindOnWay(const Trajectory& trajectory, Point2 place, double gone_s) {
+  constexpr double kPosesErr_m = 0.15;
+  constexpr double kSoon_s = 0.5;  // between two poses
+  const std::optional<NearestTime> nearest = FindNearest(trajectory, place);
+  if (!nearest) return nearest;
+  if (nearest->time_s >= gone_s && nearest->time_s <= gone_s + kSoon_s) return nearest;
+  const std::vector<Waypoint>& waypoints = trajectory.waypoints;
+  std::optional<NearestTime> first;  // as near, and nearer than just before
+  for (std::size_t i = 1; i < waypoints.size(); ++i) {
+    const Waypoint& from = waypoints[i - 1];
+    if (waypoints[i].arrival_time_s < gone_s) continue;
+    const OnLeg there =
+        NearestOnLeg(from, waypoints[i], place, ShareAt(from, waypoints[i], gone_s));
+    if (first && there.distance_m >= first->distance_m) break;
+    if (there.distance_m > nearest->distance_m + kPosesErr_m) continue;
+    first = {std::max(gone_s, there.time_s), there.distance_m};
+    if (there.share < 1.0) break;
+  }
+  return first ? first : nearest;
 }
 
 }  // namespace plumescout

@@ -43,4 +43,9 @@ struct NearestTime {
 // Cost: O(waypoints).
 std::optional<NearestTime> FindNearest(const Trajectory& trajectory, Point2 place);
 
+// The same of a robot that has come as far as `gone_s`: of the times at which the way passes there,
+// as near as poses tell, the first from then on, for a way may lead back where it led out. Who is
+// at none of them any more is where FindNearest says. Cost: O(waypoints).
+std::optional<NearestTime> FindOnWay(const Trajectory& trajectory, Point2 place, double gone_s);
+
 }  // namespace plumescout

@@ -18,6 +18,7 @@ void EndPlan(const RobotId& robot, Belief& belief) {
   record.live_trajectory = nullptr;
   record.live_goal.reset();
   record.live_arrival_ns = 0;
+  record.live_gone_s = 0.0;
   record.assigned_plan = 0;
   belief.claims.erase(std::remove_if(belief.claims.begin(), belief.claims.end(),
                                      [&](const GoalClaim& claim) { return claim.robot == robot; }),

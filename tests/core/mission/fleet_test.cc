@@ -217,6 +217,21 @@ TEST(FleetRecords, HoldTheTrajectoryOfTheLivePlan) {
   EXPECT_EQ(fleet.Records().at("a").live_trajectory, nullptr);
 }
 
+TEST(FleetRecords, TellHowFarAlongItsPlanARobotHasCome) {
+  Fleet fleet = FleetOf({"a"});
+  Plan there_and_back = PlanTo("a", {0.0, 0.0});
+  there_and_back.trajectory.waypoints = {{{0, 0, 0}, 0.0}, {{5, 0, 0}, 5.0}, {{0, 0, 0}, 10.0}};
+  const PlanId plan = *fleet.Issue(there_and_back, 0);
+  for (const double time_s : {1.0, 3.0, 5.0, 6.5, 8.0}) {
+    Observation observation = Numbered(1);
+    observation.pose = PoseAt(there_and_back.trajectory, time_s);
+    fleet.Advance("a", observation, false);
+    EXPECT_NEAR(fleet.Records().at("a").live_gone_s, time_s, 1e-9);
+  }
+  ASSERT_TRUE(fleet.Report({"a", plan, ProgressOutcome::kReached}).ok());
+  EXPECT_EQ(fleet.Records().at("a").live_gone_s, 0.0);
+}
+
 TEST(FleetPhase, IsCompleteWhenEveryRobotWasToldSo) {
   Fleet fleet = FleetOf({"a", "b"});
   Plan done = PlanTo("a", {1.0, 1.0});

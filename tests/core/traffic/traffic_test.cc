@@ -261,6 +261,15 @@ TEST(Traffic, ProgressGoesByThePoseAndWhileStandingByTheTime) {
   EXPECT_NEAR(Progress_s(record, kNow_ns + 9 * kSecond_ns), 5.0, 1e-9) << "it is late";
 }
 
+TEST(Traffic, WhoComesBackWhereItWentIsOnItsWayBack) {
+  RobotRecord record = Driving("b", Along({{0.0, 0.0}, {6.0, 0.0}, {0.0, 0.0}}));
+  record.state.pose = {2.0, 0.0, 0.0};
+  EXPECT_NEAR(Progress_s(record, kNow_ns + 10 * kSecond_ns), 2.0, 1e-9);
+  record.live_gone_s = 9.5;
+  EXPECT_NEAR(Progress_s(record, kNow_ns + 10 * kSecond_ns), 10.0, 1e-9);
+  EXPECT_NEAR(Lateness_s(record, kNow_ns + 10 * kSecond_ns), 0.0, 1e-9);
+}
+
 TEST(Traffic, KeepsFartherFromRobotsWhoseFramesAreDoubtful) {
   const Trajectory mine = Along({{0, 0}, {6, 0}});
   RobotRecord other = Standing("b", {3.0, 0.9});

@@ -103,6 +103,59 @@ TEST(FindNearest, IsNeverFartherThanAnyInstant) {
   }
 }
 
+// Out along a corridor of 6 m at 1 m/s, a turn of 1 s, and back.
+Trajectory OutAndBack() {
+  Trajectory trajectory;
+  trajectory.waypoints = {
+      {{0, 0, 0}, 0.0}, {{6, 0, 0}, 6.0}, {{6, 0, M_PI}, 7.0}, {{0, 0, M_PI}, 13.0}};
+  trajectory.duration_s = 13.0;
+  return trajectory;
+}
+
+TEST(FindOnWay, GoesOutAndBackWithTheRobot) {
+  const Trajectory way = OutAndBack();
+  Rng rng(2);
+  for (const double period_s : {0.1, 0.5, 1.5}) {
+    for (const double error_m : {0.0, 0.04}) {
+      double gone_s = 0.0;
+      for (double time_s = 0.0; time_s <= 13.0; time_s += period_s) {
+        Point2 place = PoseAt(way, time_s).position();
+        place.x_m += rng.Uniform(-error_m, error_m);
+        place.y_m += rng.Uniform(-error_m, error_m);
+        gone_s = FindOnWay(way, place, gone_s)->time_s;
+        const bool turns = time_s > 5.5 && time_s < 7.5;
+        EXPECT_NEAR(gone_s, time_s, turns ? 1.3 : 0.16) << period_s << " s, " << error_m << " m";
+      }
+    }
+  }
+}
+
+TEST(FindOnWay, OfALateRobotIsWhereItIs) {
+  const Trajectory way = OutAndBack();
+  double gone_s = 0.0;
+  for (double x_m = 0.0; x_m < 5.0; x_m += 0.02) {  // at a fifth of the speed
+    gone_s = FindOnWay(way, {x_m, 0.03}, gone_s)->time_s;
+    EXPECT_NEAR(gone_s, x_m, 1e-9);
+  }
+}
+
+TEST(FindOnWay, EndsWhereItBegan) {
+  const Trajectory way = OutAndBack();
+  EXPECT_EQ(FindOnWay(way, {0.0, 0.0}, 0.0)->time_s, 0.0);
+  EXPECT_NEAR(FindOnWay(way, {0.1, 0.0}, 12.5)->time_s, 12.9, 1e-9);
+  EXPECT_EQ(FindOnWay(way, {0.0, 0.0}, 13.0)->time_s, 13.0);
+}
+
+TEST(FindOnWay, WhoLeavesWhatIsLeftOfItIsWhereItIsNearest) {
+  const Trajectory way = AllKinds();
+  for (const double gone_s : {0.0, 3.0, 8.9}) {
+    const NearestTime there = *FindOnWay(way, {0.5, 0.1}, gone_s);
+    EXPECT_NEAR(there.time_s, 0.5, 1e-9);
+    EXPECT_NEAR(there.distance_m, 0.1, 1e-9);
+  }
+  EXPECT_FALSE(FindOnWay({}, {0, 0}, 0.0).has_value());
+}
+
 TEST(FindNearest, OfNothingIsNone) { EXPECT_FALSE(FindNearest({}, {0, 0}).has_value()); }
 
 }  // namespace trajectory_test
