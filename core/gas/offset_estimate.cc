@@ -93,6 +93,7 @@ OffsetEstimate EstimateOffsets(const FieldEngine& field, std::span<const OffsetC
   estimate.mean_ppm.assign(field.cells(), 0.0);
   estimate.variance_ppm2.assign(field.cells(), 0.0);
   for (std::size_t cell = 0; cell < field.cells(); ++cell) {
+    if (!IsActive(field, cell)) continue;
     for (std::size_t k = 0; k < size; ++k) {
       double row = 0.0;  // of L^-1 W_i^T
       for (std::size_t j = 0; j <= k; ++j) row += factor.At(k, j) * reach[j][cell];

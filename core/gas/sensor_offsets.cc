@@ -66,7 +66,7 @@ std::vector<SensorOffsets::Column> SensorOffsets::Columns() const {
   for (std::size_t i = 0; i < sensors_.size(); ++i) {
     const double stddev_ppm = sensors_[i].source.offset_stddev_ppm;
     if (stddev_ppm <= 0.0) continue;
-    if (IsColumn(i)) {
+    if (IsColumn(i) && columns.size() < kMostColumns) {
       columns.push_back(
           {known, sensors_[i].readings.AllEvidence(), 1.0 / (stddev_ppm * stddev_ppm)});
     }

@@ -44,6 +44,9 @@ class SensorOffsets {
     std::vector<CellEvidence> cells;  // ascending
     double prior_precision_per_ppm2 = 0.0;
   };
+  // Of as many as a whole team has with one each: a column takes a pass over the factor, and a
+  // number in each cell of the lattice. Of others, that were heard later, the offset stays unknown.
+  static constexpr std::size_t kMostColumns = 32;
   // Cost: that of their readings.
   std::vector<Column> Columns() const;
   bool HasColumns() const;

@@ -67,7 +67,7 @@ void WayHistory::AddReading(const RobotId& robot, std::int64_t time_ns, const Po
                           static_cast<std::uint8_t>(species), sensor.robot_from_sensor, sensor.id,
                           sensor.offset_stddev_ppm, is_part});
   way.latest = {time_ns, pose};
-  bytes_ += kReadingBytes;
+  bytes_ += way.readings.back().bytes();
 }
 
 void WayHistory::AddScan(const RobotId& robot, std::int64_t time_ns, const Pose2& pose,
@@ -106,7 +106,7 @@ void WayHistory::DropQuarantined(const RobotId& robot) {
   if (found == ways_.end()) return;
   Way& way = found->second;
   std::erase_if(way.readings, [this](const KeptReading& entry) {
-    if (entry.quarantined) bytes_ -= kReadingBytes;
+    if (entry.quarantined) bytes_ -= entry.bytes();
     return entry.quarantined;
   });
   std::erase_if(way.scans, [this](const KeptScan& entry) {

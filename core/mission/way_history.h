@@ -110,8 +110,8 @@ class WayHistory {
   static void VisitState(Archive& archive, Self& self);
 
  private:
-  static constexpr std::int64_t kReadingBytes = 136;
-  static constexpr std::int64_t kScanBytes = 104;  // beside the packed scan
+  static constexpr std::int64_t kReadingBytes = 136;  // with a short name of its sensor
+  static constexpr std::int64_t kScanBytes = 104;     // beside the packed scan
 
   struct KeptReading {
     std::int64_t number = 0;
@@ -126,6 +126,11 @@ class WayHistory {
     bool is_part = false;
 
     Point2 place() const { return PlaceOnRobot(pose, robot_from_sensor); }
+    std::int64_t bytes() const {
+      constexpr std::size_t kShort = 15;  // lies in the entry itself
+      const std::size_t name = sensor.size() > kShort ? sensor.size() + 1 : 0;
+      return kReadingBytes + static_cast<std::int64_t>(name);
+    }
 
     template <typename Archive, typename Self>
     static void VisitState(Archive& archive, Self& self);

@@ -26,7 +26,8 @@ std::int64_t WayHistory::base_bytes() const {
 }
 
 std::int64_t WayHistory::BytesOf(const Way& way) {
-  std::int64_t bytes = kReadingBytes * static_cast<std::int64_t>(way.readings.size());
+  std::int64_t bytes = 0;
+  for (const KeptReading& entry : way.readings) bytes += entry.bytes();
   for (const KeptScan& entry : way.scans) bytes += kScanBytes + entry.scan->bytes();
   return bytes;
 }
@@ -67,7 +68,7 @@ void WayHistory::Merge(std::int64_t below_number) {
     std::erase_if(way.readings, [&](const KeptReading& entry) {
       if (entry.number >= below_number) return false;
       merged_ns = std::max(merged_ns, entry.time_ns);
-      bytes_ -= kReadingBytes;
+      bytes_ -= entry.bytes();
       if (entry.quarantined) return true;
       base_readings_[entry.species].Add(entry.time_ns, entry.place(), entry.reading, entry.is_part);
       base_sampled_[entry.species].Add(entry.time_ns, entry.place());

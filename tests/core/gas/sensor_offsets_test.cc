@@ -68,6 +68,22 @@ TEST(SensorOffsetsTest, ASensorIsAColumnOnceItMetAnotherOftenEnough) {
   EXPECT_NEAR(columns[0].cells[0].evidence.weighted_deviation, 15 * 7.0 / 0.5, 1e-9);
 }
 
+TEST(SensorOffsetsTest, EstimatesThoseThatWereHeardFirstOfVeryMany) {
+  SensorOffsets sensors(GasOptions(), kResolution_m);
+  constexpr std::size_t kSensors = SensorOffsets::kMostColumns + 3;
+  for (int i = 0; i < 30; ++i) {
+    sensors.Add(kReference, i * kSecond_ns, {0.25, 0.25}, {5.0, 0.5}, {});
+    for (std::size_t k = 0; k < kSensors; ++k) {
+      const ReadingSource source{"r2", "pid" + std::to_string(k), 2.0};
+      sensors.Add(source, i * kSecond_ns, {0.35, 0.25}, {7.0, 0.5}, {});
+    }
+  }
+  EXPECT_EQ(sensors.Known().size(), kSensors);
+  const std::vector<SensorOffsets::Column> columns = sensors.Columns();
+  ASSERT_EQ(columns.size(), SensorOffsets::kMostColumns);
+  EXPECT_EQ(columns.back().sensor, SensorOffsets::kMostColumns - 1);
+}
+
 TEST(SensorOffsetsTest, ASensorThatIsCalibratedMeanwhileIsNoColumn) {
   SensorOffsets sensors(GasOptions(), kResolution_m);
   Meet(sensors, 20);

@@ -70,6 +70,19 @@ TEST(WayHistoryOfGases, TellsReadingsOfGasesApart) {
   }
 }
 
+TEST_F(WayHistoryTest, ReckonsWithLongNamesOfSensors) {
+  GasSensor sensor;
+  sensor.id = std::string(60, 's');
+  for (int i = 0; i < 8; ++i) {
+    history_.AddReading("a", i * kSecond_ns, {1.0, 1.5, 0.0}, {2.0, 0.0}, i >= 6, sensor);
+  }
+  EXPECT_EQ(history_.bytes(), 8 * (136 + 61));
+  history_.DropQuarantined("a");
+  EXPECT_EQ(history_.bytes(), 6 * (136 + 61));
+  history_.Trim(4 * (136 + 61));
+  EXPECT_LE(history_.bytes(), 4 * (136 + 61)) << "or it keeps nothing";
+}
+
 TEST_F(WayHistoryTest, WhatIsInQuarantineCountsForNothing) {
   Read(1.0, 0);
   const std::int64_t from = history_.next_number();
