@@ -21,6 +21,7 @@
 #include "core/gas/way_readings.h"
 #include "core/mission/fleet.h"
 #include "core/mission/goal_memory.h"
+#include "core/mission/held_verdict.h"
 #include "core/mission/jump_watch.h"
 #include "core/mission/map_rebuild.h"
 #include "core/mission/memory_estimate.h"
@@ -231,10 +232,7 @@ class Mission {
   void NoteWhetherItGoesOn();
   std::optional<std::int64_t> Deadline_ns() const;
   // Whether it has come to anything that other missions have not.
-  bool has_purpose() const {
-    return options_->objective.kind != ObjectiveKind::kCompleteMap ||
-           options_->objective.deadline_s > 0.0;
-  }
+  bool has_purpose() const;
   GoalMemory::Now Present() const {
     return {sample_time_ns_, occupancy_.States(), gas_.first().variance_ppm2()};
   }
@@ -297,6 +295,7 @@ class Mission {
     ObjectiveStatus status;
     std::optional<std::int64_t> began_ns;     // when the first observation was taken
     std::optional<std::int64_t> assessed_ns;  // when it was assessed last
+    HeldVerdict verdict;
 
     template <typename Archive, typename Self>
     static void VisitState(Archive& archive, Self& self);

@@ -17,14 +17,24 @@ constexpr double kNanosecondsPerSecond = 1e9;
 
 }  // namespace
 
+bool Mission::has_purpose() const {
+  return options_->objective.kind != ObjectiveKind::kCompleteMap ||
+         options_->objective.deadline_s > 0.0;
+}
+
 void Mission::AssessIfDue() {
   const bool is_without = options_->objective.kind == ObjectiveKind::kCompleteMap;
-  if (is_without || IsConcluded(progress_.status)) return;
+  if (is_without) return;
+  const ObjectiveOptions& objective = options_->objective;
+  const bool is_settled = progress_.verdict.IsSettled(objective, sample_time_ns_);
+  if (IsConcluded(progress_.status) && is_settled) return;
   if (progress_.assessed_ns && sample_time_ns_ - *progress_.assessed_ns < kAssessmentPeriod_ns) {
     return;
   }
   progress_.assessed_ns = sample_time_ns_;
   ObjectiveStatus now = AssessObjective(*Snapshot());
+  now.state = progress_.verdict.Take(now.state, objective, sample_time_ns_,
+                                     fleet_.Phase() == MissionPhase::kComplete);
   now.since_ns = now.state == progress_.status.state ? progress_.status.since_ns : sample_time_ns_;
   progress_.status = now;
 }
@@ -35,7 +45,10 @@ void Mission::NoteWhetherItGoesOn() {
   const bool is_over = fleet_.Phase() == MissionPhase::kComplete;
   const bool was_over = status.state == ObjectiveState::kCannotBeMet;
   if (IsConcluded(status) || is_over == was_over) return;
-  status.state = is_over ? ObjectiveState::kCannotBeMet : ObjectiveState::kPursued;
+  const ObjectiveState pending = progress_.verdict.pending();
+  const ObjectiveState end =
+      pending == ObjectiveState::kPursued ? ObjectiveState::kCannotBeMet : pending;
+  status.state = is_over ? end : ObjectiveState::kPursued;
   status.since_ns = sample_time_ns_;
 }
 

@@ -24,7 +24,7 @@ namespace plumescout {
 namespace {
 
 // Of what SaveState writes. Who changes that counts it up, and reads the old one on.
-constexpr std::uint32_t kStateVersion = 2;
+constexpr std::uint32_t kStateVersion = 3;
 constexpr std::uint32_t kOldestStateVersion = 1;
 constexpr std::uint32_t kVersionWithHistory = 2;
 
@@ -82,8 +82,9 @@ void Visit(auto& archive, ConstOr<ObjectiveStatus> auto& status) {
 
 template <typename Archive, typename Self>
 void Mission::Progress::VisitState(Archive& archive, Self& self) {
-  auto& [status, began_ns, assessed_ns] = self;
+  auto& [status, began_ns, assessed_ns, verdict] = self;
   archive(status, began_ns, assessed_ns);
+  archive.Since(3, verdict);
 }
 
 template <typename Archive, typename Self>

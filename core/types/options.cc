@@ -172,6 +172,7 @@ absl::Status Validate(const ObjectiveOptions& options) {
       .InRange("objective.confidence", options.confidence, 0.501, 0.9999)
       .InRange("objective.radius_m", options.radius_m, 0.0, kMaxRadius_m)
       .InRange("objective.deadline_s", options.deadline_s, 0.0, kMaxTime_s)
+      .InRange("objective.hold_s", options.hold_s, 0.0, 3600.0)
       .status();
 }
 

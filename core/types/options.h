@@ -266,6 +266,10 @@ struct ObjectiveOptions {
   // Mission time, from its first observation on, by which robots are home: plans that do not come
   // back by then are not taken. [0, 1e9]; 0: none.
   double deadline_s = 0.0;
+  // A verdict that rests on there being nothing left to know is one once it has held for so long,
+  // of sample time, or robots have nothing left to do: a door that is shut for a moment hides what
+  // lies behind it. [0, 3600]; 0: at once.
+  double hold_s = 10.0;
 };
 
 struct MissionOptions {

@@ -138,6 +138,7 @@ void Visit(OneOf<ObjectiveOptions> auto& options, auto& field) {
   field("confidence", options.confidence);
   field("radius_m", options.radius_m);
   field("deadline_s", options.deadline_s);
+  field("hold_s", options.hold_s);
 }
 
 void Visit(OneOf<MissionOptions> auto& options, auto& field) {
@@ -298,6 +299,7 @@ MissionOptions RecordedDefaults() {
   options.occupancy = PublishedOccupancyOptions();
   options.gas = PublishedGasOptions();
   options.gas.estimate_noise = false;
+  options.objective.hold_s = 0.0;
   return options;
 }
 

@@ -33,6 +33,7 @@ inline BadInputs BadObjective() {
       .Values(o + "confidence", {"nan", "inf", "-1", "0", "0.5", "1"})
       .Values(o + "radius_m", {"nan", "inf", "-1", "101"})
       .Values(o + "deadline_s", {"nan", "inf", "-1", "1.1e9"})
+      .Values(o + "hold_s", {"nan", "inf", "-1", "3601"})
       .ValuesBlaming(o + "threshold_ppm", o + "kind", {"2", "3", "4"});
 }
 

@@ -38,7 +38,7 @@ class Sweep {
     const int row = step_ / 10;
     const int column = row % 2 == 0 ? step_ % 10 : 9 - step_ % 10;
     const Pose2 pose{0.3 + 0.26 * column, 0.3 + 0.26 * (row % 10), 0.0};
-    Send(pose, support::ScanInBox(pose, 3.0, 3.0));
+    Send(pose, support::ScanInBox(pose, width_m, 3.0));
     Send(pose, GasReading{air_ppm});
     Apply(PosteriorRefreshed{time_ns_});
     ++step_;
@@ -60,6 +60,7 @@ class Sweep {
   }
 
   std::unique_ptr<Mission> mission;
+  double width_m = 3.0;  // of the room, from now on
 
  private:
   void Send(const Pose2& pose, ObservationPayload payload) {
@@ -100,6 +101,63 @@ TEST(MissionObjective, WhatIsConcludedStays) {
   sweep.Run(0.0, 50);
   EXPECT_EQ(sweep.status(), refuted);
   EXPECT_TRUE(IsOver(*sweep.mission->Snapshot()));
+}
+
+// A room twice as wide, of which the robot reads its half, and a door that is shut in its middle.
+class HalfARoom : public Sweep {
+ public:
+  explicit HalfARoom(double hold_s) : Sweep(Holding(hold_s)) {
+    Open(105);
+    EXPECT_EQ(status().state, ObjectiveState::kPursued);
+    EXPECT_GT(status().undecided_area_m2, 5.0);
+  }
+  void Open(int steps) {
+    width_m = 6.0;
+    Run(0.0, steps);
+  }
+  void Shut(int steps) {
+    width_m = 3.0;
+    Run(0.0, steps);
+    EXPECT_EQ(status().undecided_area_m2, 0.0);
+  }
+
+ private:
+  static MissionOptions Holding(double hold_s) {
+    MissionOptions options = For(ObjectiveKind::kConfirmClean);
+    options.objective.hold_s = hold_s;
+    return options;
+  }
+};
+
+TEST(MissionObjective, WhatHoldsForAMomentIsNoVerdict) {
+  HalfARoom at_once(0.0);
+  at_once.Shut(30);
+  EXPECT_EQ(at_once.status().state, ObjectiveState::kMet);
+  HalfARoom room(20.0);
+  room.Shut(30);
+  EXPECT_EQ(room.status().state, ObjectiveState::kPursued) << "for 15 s at most";
+  room.Open(40);
+  EXPECT_EQ(room.status().state, ObjectiveState::kPursued);
+  EXPECT_GT(room.status().undecided_area_m2, 5.0);
+  room.Shut(30);
+  EXPECT_EQ(room.status().state, ObjectiveState::kPursued) << "counted from anew";
+  room.Shut(40);
+  EXPECT_EQ(room.status().state, ObjectiveState::kMet);
+  room.Open(40);
+  EXPECT_EQ(room.status().state, ObjectiveState::kMet) << "it has held";
+}
+
+TEST(MissionObjective, WithNothingLeftToDoAVerdictStandsAsLongAsItHolds) {
+  HalfARoom room(100.0);
+  room.Shut(30);
+  room.Complete(true);
+  EXPECT_EQ(room.status().state, ObjectiveState::kMet);
+  room.Shut(4);
+  EXPECT_EQ(room.status().state, ObjectiveState::kMet);
+  room.Open(40);
+  EXPECT_EQ(room.status().state, ObjectiveState::kCannotBeMet);
+  room.Complete(false);
+  EXPECT_EQ(room.status().state, ObjectiveState::kPursued);
 }
 
 TEST(MissionObjective, AMissionThatEndsWithoutCannotMeetItUntilItGoesOn) {

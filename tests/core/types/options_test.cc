@@ -57,6 +57,7 @@ TEST(ObjectiveOptions, RefuseValuesOutsideTheirRanges) {
       {"confidence", &ObjectiveOptions::confidence, {0.0, 0.5, 1.0}},
       {"radius_m", &ObjectiveOptions::radius_m, {-0.1, 101.0}},
       {"deadline_s", &ObjectiveOptions::deadline_s, {-1.0, 1.1e9}},
+      {"hold_s", &ObjectiveOptions::hold_s, {-1.0, 3601.0}},
   });
 }
 

@@ -70,7 +70,7 @@ MissionOptions Unlike() {
   options.frontier = {9, 6, 0.5, 0.25, 20.0, 3.0, 4.0, WgfdScope::kLocal};
   options.planning = UnlikePlanning();
   options.max_robot_count = 3;
-  options.objective = {ObjectiveKind::kFindSources, 12.5, 0.99, 0.5, 900.0};
+  options.objective = {ObjectiveKind::kFindSources, 12.5, 0.99, 0.5, 900.0, 2.5};
   options.robot_silence_s = 12.5;
   options.return_home_below_battery_share = 0.25;
   options.memory_budget_bytes = 100'000'000;
@@ -99,6 +99,7 @@ TEST(OptionsTest, OptionsSurviveTheRoundTrip) {
   EXPECT_EQ(back->seed, Unlike().seed);
   EXPECT_EQ(back->objective.kind, ObjectiveKind::kFindSources);
   EXPECT_EQ(back->objective.deadline_s, 900.0);
+  EXPECT_EQ(back->objective.hold_s, 2.5);
   EXPECT_EQ(back->occupancy.surface_depth_m, 0.02);
   EXPECT_EQ(back->robot_silence_s, 12.5);
   EXPECT_EQ(back->return_home_below_battery_share, 0.25);
