@@ -153,6 +153,7 @@ int Run(const ServerConfig& config) {
 
 int RunLogged(const ServerConfig& config) {
   BlockStopSignals();  // before the first thread starts
+  LimitArenas();
   ReturnLargeBlocks();
   // Who reads our output may go away.
   signal(SIGPIPE, SIG_IGN);

@@ -10,4 +10,10 @@ namespace plumescout::server {
 // m, stay with the process, for to get them anew takes longer than to fill them.
 void ReturnLargeBlocks();
 
+// Has threads share an arena for each core, but two at least, unless the environment says how many
+// (MALLOC_ARENA_MAX, or glibc.malloc.arena_max in GLIBC_TUNABLES). The GNU C library would make
+// eight for each core, and what is freed in one stays with the process for threads of that one. Has
+// no effect once a second thread has allocated anything.
+void LimitArenas();
+
 }  // namespace plumescout::server

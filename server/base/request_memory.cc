@@ -32,7 +32,7 @@ absl::StatusOr<RequestMemory::Begun> RequestMemory::Begin(const RequestKey& key,
   return Begun{};
 }
 
-void RequestMemory::Conclude(const RequestKey& key, std::optional<std::string> answer) {
+void RequestMemory::Conclude(const RequestKey& key, std::optional<KeptAnswer> answer) {
   if (!answer) {
     Waiter next;
     do {
@@ -52,19 +52,28 @@ void RequestMemory::Conclude(const RequestKey& key, std::optional<std::string> a
   for (const Waiter& waiter : waiters) waiter(&*answer);
 }
 
+void RequestMemory::Settle(const RequestKey& key, const Proviso* proviso, bool came_true) {
+  absl::MutexLock lock(&mutex_);
+  const auto found = entries_.find(key);
+  // It may have made room for another, also of the same key.
+  if (found == entries_.end() || found->second.answer.proviso.get() != proviso) return;
+  if (!came_true) return Erase(key);
+  found->second.answer.proviso = nullptr;
+}
+
 void RequestMemory::Forget(const RequestKey& key) {
   absl::MutexLock lock(&mutex_);
   const auto found = entries_.find(key);
   if (found != entries_.end() && !found->second.running) Erase(key);
 }
 
-void RequestMemory::Keep(const RequestKey& key, Entry& entry, std::string answer) {
-  bytes_ += static_cast<std::int64_t>(answer.size());
+void RequestMemory::Keep(const RequestKey& key, Entry& entry, KeptAnswer answer) {
+  bytes_ += static_cast<std::int64_t>(answer.bytes.size());
   entry.running = false;
   entry.answer = std::move(answer);
   entry.answered = options_.clock();
   Shelf& shelf = shelves_[{key.caller, key.method}];
-  shelf.bytes += static_cast<std::int64_t>(entry.answer.size());
+  shelf.bytes += static_cast<std::int64_t>(entry.answer.bytes.size());
   entry.place = shelf.keys.insert(shelf.keys.end(), key);
   ++answers_;
 }
@@ -72,7 +81,7 @@ void RequestMemory::Keep(const RequestKey& key, Entry& entry, std::string answer
 void RequestMemory::Erase(const RequestKey& key) {
   const auto found = entries_.find(key);
   const auto shelf = shelves_.find({key.caller, key.method});
-  const auto bytes = static_cast<std::int64_t>(found->second.answer.size());
+  const auto bytes = static_cast<std::int64_t>(found->second.answer.bytes.size());
   bytes_ -= bytes;
   shelf->second.bytes -= bytes;
   --answers_;

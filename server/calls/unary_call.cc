@@ -17,6 +17,25 @@ void EndStage(const UnaryCall& call, Stage stage, SteadyTime began) {
   call.info().stage_times->Add(stage, absl::FromChrono(SteadyNow() - began));
 }
 
+// Of all that was done to a mission when this was made. What keeps the answer does not keep the
+// mission.
+class Durability final : public Proviso {
+ public:
+  explicit Durability(const std::shared_ptr<MissionHost>& host)
+      : host_(host), journal_(host->shared_journal()), revision_(host->summary().revision) {}
+
+  void Await(Heard heard) const override {
+    if (const auto host = host_.lock()) return host->WhenDurable(std::move(heard));
+    journal_->WhenDurable(revision_, SteadyTime::max(), std::move(heard));  // closed: it knows
+  }
+  bool IsOpen() const override { return journal_->is_open(); }
+
+ private:
+  const std::weak_ptr<MissionHost> host_;
+  const std::shared_ptr<MissionJournal> journal_;
+  const std::int64_t revision_;
+};
+
 }  // namespace
 
 UnaryCall* UnaryCall::Start(const ServiceContext& context, Rpc rpc,
@@ -59,19 +78,20 @@ void UnaryCall::WhenCancelled(std::function<void()> stop) {
   stop();
 }
 
-void UnaryCall::BeforeAnswer(std::function<void(const absl::Status&)> look) {
+void UnaryCall::BeforeAnswer(Look look) {
   absl::MutexLock lock(&mutex_);
   look_ = std::move(look);
 }
 
-void UnaryCall::Answer(const absl::Status& status) {
-  std::function<void(const absl::Status&)> look;
+void UnaryCall::AnswerUnder(const std::shared_ptr<const Proviso>& proviso,
+                            const absl::Status& status) {
+  Look look;
   {
     absl::MutexLock lock(&mutex_);
     if (std::exchange(answered_, true)) return;
     look.swap(look_);
   }
-  if (look) look(status);
+  if (look) look(status, proviso);
   Finish(ToGrpc(visit_.Leave(status), info().request_id));
 }
 
@@ -102,13 +122,18 @@ absl::Status PostFor(const std::shared_ptr<UnaryCall>& call, MissionHost& host,
       Refusal(call));
 }
 
-void AnswerWhenDurable(MissionHost& host, const std::shared_ptr<UnaryCall>& call,
-                       const absl::Status& status) {
+void AnswerWhenDurable(const std::shared_ptr<MissionHost>& host,
+                       const std::shared_ptr<UnaryCall>& call, const absl::Status& status) {
   if (!status.ok()) return call->Answer(status);
-  host.WhenDurable([call, began = SteadyNow()](const absl::Status& durable) {
-    EndStage(*call, Stage::kDurable, began);
-    call->Answer(durable);
-  });
+  host->WhenDurable(
+      [call, proviso = OnceDurable(host), began = SteadyNow()](const absl::Status& durable) {
+        EndStage(*call, Stage::kDurable, began);
+        call->AnswerUnder(proviso, durable);
+      });
+}
+
+std::shared_ptr<const Proviso> OnceDurable(const std::shared_ptr<MissionHost>& host) {
+  return std::make_shared<const Durability>(host);
 }
 
 absl::Status AnswerInTurn(const std::shared_ptr<UnaryCall>& call, absl::string_view mission,

@@ -16,6 +16,7 @@
 #include "absl/synchronization/mutex.h"
 #include "core/belief/belief.h"
 #include "server/base/fair_pool.h"
+#include "server/base/request_memory.h"
 #include "server/calls/door.h"
 #include "server/missions/mission_host.h"
 
@@ -43,10 +44,15 @@ class UnaryCall final : public grpc::ServerUnaryReactor {
 
   // `stop` is called when the caller gives up, at once if it has. Must not block. One at a time.
   void WhenCancelled(std::function<void()> stop) ABSL_LOCKS_EXCLUDED(mutex_);
-  // `look` is called with the status, once, when the answer is given and the response is whole, on
-  // the thread that gives it. Must not block. One at a time.
-  void BeforeAnswer(std::function<void(const absl::Status&)> look) ABSL_LOCKS_EXCLUDED(mutex_);
-  void Answer(const absl::Status& status) ABSL_LOCKS_EXCLUDED(mutex_);
+  // `look` is called, once, when the answer is given and the response is whole, on the thread that
+  // gives it. Must not block. One at a time.
+  using Look =
+      std::function<void(const absl::Status& status, const std::shared_ptr<const Proviso>&)>;
+  void BeforeAnswer(Look look) ABSL_LOCKS_EXCLUDED(mutex_);
+  void Answer(const absl::Status& status) { AnswerUnder(nullptr, status); }
+  // With what `proviso` said. All was done that the response tells of, which is whole.
+  void AnswerUnder(const std::shared_ptr<const Proviso>& proviso, const absl::Status& status)
+      ABSL_LOCKS_EXCLUDED(mutex_);
 
   void OnCancel() override ABSL_LOCKS_EXCLUDED(mutex_);
   void OnDone() override;
@@ -59,7 +65,7 @@ class UnaryCall final : public grpc::ServerUnaryReactor {
   bool cancelled_ ABSL_GUARDED_BY(mutex_) = false;
   bool answered_ ABSL_GUARDED_BY(mutex_) = false;
   std::function<void()> stop_ ABSL_GUARDED_BY(mutex_);
-  std::function<void(const absl::Status&)> look_ ABSL_GUARDED_BY(mutex_);
+  Look look_ ABSL_GUARDED_BY(mutex_);
 };
 
 // Answers a call whose command was dropped.
@@ -73,9 +79,12 @@ absl::Status PostFor(const std::shared_ptr<UnaryCall>& call, MissionHost& host,
 
 // Answers a call with an error at once; with OK when all that was done to the mission so far is
 // durable, or with an error if it does not become so. A caller that gives up is not waited for
-// less: what is done is remembered for when it asks again. From any thread.
-void AnswerWhenDurable(MissionHost& host, const std::shared_ptr<UnaryCall>& call,
-                       const absl::Status& status);
+// less: what is done is remembered for when it asks again, also if that is not durable in time.
+// From any thread.
+void AnswerWhenDurable(const std::shared_ptr<MissionHost>& host,
+                       const std::shared_ptr<UnaryCall>& call, const absl::Status& status);
+// That all that was done to the mission so far is durable.
+std::shared_ptr<const Proviso> OnceDurable(const std::shared_ptr<MissionHost>& host);
 
 // As whom a call waits for a thread: callers of one tenant take turns, and their missions.
 inline FairKey TurnOf(const CallInfo& call, absl::string_view mission) {

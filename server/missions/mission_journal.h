@@ -95,6 +95,11 @@ class MissionJournal : public std::enable_shared_from_this<MissionJournal> {
     absl::MutexLock lock(&mutex_);
     return !lost_.ok();
   }
+  // Whether what is not durable may become so, for all who wait to hear of.
+  bool is_open() const {
+    absl::MutexLock lock(&mutex_);
+    return lost_.ok() && closed_.ok();
+  }
   std::int64_t epoch() const { return home_.epoch; }
   const std::string& key() const { return home_.key; }
   // The store forgets the mission. `done` may hear after long.

@@ -298,6 +298,8 @@ absl::Status MissionRegistry::GiveUp(const StrayMission& stray) {
   {
     absl::MutexLock lock(&mutex_);
     PLUMESCOUT_RETURN_IF_ERROR(Closed(key));
+    // Whoever took it over would keep what is to go.
+    if (removals_->Contains(key)) return MissionNotFound(MissionIdOf(key));
     const auto found = hosts_.find(key);
     if (found != hosts_.end()) host = found->second;
     const bool is_read = being_made_.contains(key) || sought_.IsAskedFor(key) ||

@@ -22,6 +22,8 @@ absl::Duration ThreadCpuTime() {
   return absl::DurationFromTimespec(time);
 }
 
+absl::Status GivenUp() { return absl::CancelledError("the caller gave up"); }
+
 }  // namespace
 
 void LogPlan(const MissionId& mission, const PlanAnswer& answer, const std::string& request_id) {
@@ -44,14 +46,19 @@ void PlanJob::Start() {
 }
 
 void PlanJob::Cancel() {
-  Finish(absl::CancelledError("the caller gave up"));
+  if (!guard_.GiveUp()) return;
+  Finish(GivenUp());
   parts_.host->Wake();
 }
 
-void PlanJob::Finish(absl::StatusOr<PlanAnswer> answer) {
-  if (answered_.exchange(true)) return;
+bool PlanJob::TakeAnswer() {
+  if (answered_.exchange(true)) return false;
   parts_.host->end_listeners().Remove(listener_);
-  parts_.done(std::move(answer));
+  return true;
+}
+
+void PlanJob::Finish(absl::StatusOr<PlanAnswer> answer) {
+  if (TakeAnswer()) parts_.done(std::move(answer));
 }
 
 void PlanJob::EndStage(Stage stage) {
@@ -112,6 +119,7 @@ void PlanJob::Commit(Plan plan) {
   const absl::Status posted = parts_.host->Post(
       [self = shared_from_this(), plan = std::move(plan)](MissionWriter& writer) mutable {
         if (self->answered_) return;
+        if (!self->guard_.Begin()) return self->Finish(GivenUp());
         const absl::Status allowed = self->parts_.host->CheckMayPlan();
         if (!allowed.ok()) return self->Finish(allowed);
         // It may have been released while the search went on.
@@ -127,7 +135,10 @@ void PlanJob::Commit(Plan plan) {
 }
 
 void PlanJob::Committed(Plan plan, absl::StatusOr<PlanId> id) {
-  if (race_.SearchAgainAfter(id.status())) return AwaitBelief();
+  if (race_.SearchAgainAfter(id.status())) {
+    if (guard_.Undo()) return AwaitBelief();
+    return Finish(GivenUp());
+  }
   if (!id.ok()) return Finish(id.status());
   plan.id = *id;
   plan.cpu_s = absl::ToDoubleSeconds(cpu_time_);
@@ -141,9 +152,14 @@ void PlanJob::AnswerOnceDurable(Plan plan) {
   parts_.host->WhenDurable(
       [self = shared_from_this(), plan = std::move(plan)](const absl::Status& durable) mutable {
         self->EndStage(Stage::kDurable);
-        if (!durable.ok()) return self->Finish(durable);
-        self->Finish(PlanAnswer{std::move(plan), self->cpu_time_});
+        self->AnswerAfter(PlanAnswer{std::move(plan), self->cpu_time_}, durable);
       });
+}
+
+void PlanJob::AnswerAfter(PlanAnswer answer, const absl::Status& durable) {
+  if (durable.ok()) return Finish(std::move(answer));
+  if (parts_.late == nullptr) return Finish(durable);
+  if (TakeAnswer()) parts_.late(std::move(answer), durable);
 }
 
 }  // namespace plumescout::server

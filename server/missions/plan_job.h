@@ -15,6 +15,7 @@
 #include "server/base/clock.h"
 #include "server/base/fair_pool.h"
 #include "server/base/stage_times.h"
+#include "server/missions/commit_guard.h"
 #include "server/missions/mission_host.h"
 
 namespace plumescout::server {
@@ -51,11 +52,14 @@ class PlanJob : public std::enable_shared_from_this<PlanJob> {
     Done done;                        // called exactly once, on any thread
     PlanListener improved = nullptr;  // told of plans on the way, on a thread of the pool
     std::shared_ptr<StageTimes> stage_times = nullptr;  // told what the order waits for
+    // In place of `done`: a plan that is not durable in time. Null: `done` hears.
+    std::function<void(PlanAnswer, const absl::Status& durable)> late = nullptr;
   };
   explicit PlanJob(Parts parts) : parts_(std::move(parts)) {}
 
   void Start();
-  // Answers at once, and stops the search soon; nothing is committed after it.
+  // Answers at once, and stops the search soon, unless something is committed already: then all
+  // goes on, for whoever asks again. Otherwise nothing is committed after it.
   void Cancel();
 
  private:
@@ -67,11 +71,14 @@ class PlanJob : public std::enable_shared_from_this<PlanJob> {
   void AnswerOnceDurable(Plan plan);
   // The stage is over, the next begins.
   void EndStage(Stage stage);
-  // The first answer counts.
+  void AnswerAfter(PlanAnswer answer, const absl::Status& durable);
+  // True for the first only: its answer counts.
+  bool TakeAnswer();
   void Finish(absl::StatusOr<PlanAnswer> answer);
 
   const Parts parts_;
   std::atomic<bool> answered_ = false;
+  CommitGuard guard_;
   std::atomic<EndListeners::Id> listener_ = 0;  // at the host
   // Touched by one stage at a time; the queues between the stages order them.
   CommitRace race_;

@@ -9,6 +9,11 @@
 #include "server/missions/mission_registry.h"
 
 namespace plumescout::server {
+namespace {
+
+absl::Status GivenUp() { return absl::CancelledError("the caller gave up"); }
+
+}  // namespace
 
 void TeamJob::Start() {
   listener_ = parts_.host->end_listeners().Add([weak = weak_from_this()](const absl::Status& end) {
@@ -20,14 +25,19 @@ void TeamJob::Start() {
 }
 
 void TeamJob::Cancel() {
-  Finish(absl::CancelledError("the caller gave up"));
+  if (!guard_.GiveUp()) return;
+  Finish(GivenUp());
   parts_.host->Wake();
 }
 
-void TeamJob::Finish(absl::StatusOr<CommittedTeam> answer) {
-  if (answered_.exchange(true)) return;
+bool TeamJob::TakeAnswer() {
+  if (answered_.exchange(true)) return false;
   parts_.host->end_listeners().Remove(listener_);
-  parts_.done(std::move(answer));
+  return true;
+}
+
+void TeamJob::Finish(absl::StatusOr<CommittedTeam> answer) {
+  if (TakeAnswer()) parts_.done(std::move(answer));
 }
 
 void TeamJob::AwaitBelief() {
@@ -69,18 +79,24 @@ void TeamJob::Commit(TeamPlan team) {
   const absl::Status posted = parts_.host->Post(
       [self = shared_from_this(), team = std::move(team)](MissionWriter& writer) mutable {
         if (self->answered_) return;
+        if (!self->guard_.Begin()) return self->Finish(GivenUp());
         const absl::Status allowed = self->parts_.host->CheckMayPlan();
         if (!allowed.ok()) return self->Finish(allowed);
         CommittedTeam answer = CommitTeam(std::move(team), writer.conduct());
         for (const Plan& plan : answer.plans) self->parts_.host->latest_plans().Note(plan);
         self->parts_.host->WhenDurable(
             [self, answer = std::move(answer)](const absl::Status& durable) mutable {
-              if (!durable.ok()) return self->Finish(durable);
-              self->Finish(std::move(answer));
+              self->AnswerAfter(std::move(answer), durable);
             });
       },
       [self = shared_from_this()](const absl::Status& status) { self->Finish(status); });
   if (!posted.ok()) Finish(posted);
+}
+
+void TeamJob::AnswerAfter(CommittedTeam answer, const absl::Status& durable) {
+  if (durable.ok()) return Finish(std::move(answer));
+  if (parts_.late == nullptr) return Finish(durable);
+  if (TakeAnswer()) parts_.late(std::move(answer), durable);
 }
 
 }  // namespace plumescout::server

@@ -13,6 +13,7 @@
 #include "core/plan/team/team_plan.h"
 #include "server/base/clock.h"
 #include "server/base/fair_pool.h"
+#include "server/missions/commit_guard.h"
 #include "server/missions/mission_host.h"
 
 namespace plumescout::server {
@@ -36,11 +37,14 @@ class TeamJob : public std::enable_shared_from_this<TeamJob> {
     FairPool* pool = nullptr;  // not owned; outlives the job
     TeamOrder order;
     Done done;  // called exactly once, on any thread
+    // In place of `done`: plans that are not durable in time. Null: `done` hears.
+    std::function<void(CommittedTeam, const absl::Status& durable)> late = nullptr;
   };
   explicit TeamJob(Parts parts) : parts_(std::move(parts)) {}
 
   void Start();
-  // Answers at once, and stops the search soon; nothing is committed after it.
+  // Answers at once, and stops the search soon, unless something is committed already: then all
+  // goes on, for whoever asks again. Otherwise nothing is committed after it.
   void Cancel();
 
  private:
@@ -48,11 +52,14 @@ class TeamJob : public std::enable_shared_from_this<TeamJob> {
   void Enqueue(std::shared_ptr<const Belief> belief);
   void Search(const Belief& belief);
   void Commit(TeamPlan team);
-  // The first answer counts.
+  void AnswerAfter(CommittedTeam answer, const absl::Status& durable);
+  // True for the first only: its answer counts.
+  bool TakeAnswer();
   void Finish(absl::StatusOr<CommittedTeam> answer);
 
   const Parts parts_;
   std::atomic<bool> answered_ = false;
+  CommitGuard guard_;
   std::atomic<EndListeners::Id> listener_ = 0;  // at the host
 };
 

@@ -92,7 +92,7 @@ absl::Status MissionService::MakeNow(const v1::CreateMissionRequest& request,
            {"strategy", options.planning.strategy},
            {"request_id", call->info().request_id}});
   mission = Describe(**host);
-  AnswerWhenDurable(**host, call, absl::OkStatus());
+  AnswerWhenDurable(*host, call, absl::OkStatus());
   return absl::OkStatus();
 }
 
@@ -224,7 +224,7 @@ absl::Status MissionService::Update(const v1::UpdateMissionRequest& request, v1:
             v1::EventRetention_Name(EventRetentionToProto(host->standing().event_retention()))},
            {"request_id", call->info().request_id}});
   mission = Describe(*host);
-  AnswerWhenDurable(*host, call, absl::OkStatus());
+  AnswerWhenDurable(host, call, absl::OkStatus());
   return absl::OkStatus();
 }
 
@@ -245,7 +245,7 @@ absl::Status MissionService::Change(const std::string& name, v1::Mission& missio
                                 {"caller", call->caller().name},
                                 {"request_id", call->info().request_id}});
     }
-    AnswerWhenDurable(*host, call, changed);
+    AnswerWhenDurable(host, call, changed);
   });
 }
 
@@ -342,7 +342,7 @@ absl::Status MissionService::KeepOut(const v1::ChangeKeepOutAreasRequest& reques
         *response->mutable_areas() = ToProto(writer.mission().options().keep_out);
         response->set_revision(*revision);
       }
-      AnswerWhenDurable(*host, runner, WithField(revision.status(), ""));
+      AnswerWhenDurable(host, runner, WithField(revision.status(), ""));
     });
   };
   return AnswerOnce(host->requests(), request.request_id(), request, response, call, run);

@@ -109,16 +109,21 @@ absl::Status PlanningService::Search(const std::shared_ptr<MissionHost>& host, P
   PLUMESCOUT_RETURN_IF_ERROR(host->leases().Use(robot, order.lease_token));
   PLUMESCOUT_RETURN_IF_ERROR(host->rates().AdmitPlan(robot));
   order.deadline = After(call->info().deadline, -context_.limits.deadline_margin);
-  const auto job = std::make_shared<PlanJob>(PlanJob::Parts{
-      host, context_.planning_pool, std::move(order),
-      [call, response, mission = host->id()](const absl::StatusOr<PlanAnswer>& answer) {
-        if (answer.ok()) {
-          LogPlan(mission, *answer, call->info().request_id);
-          *response->mutable_plan() = ToProto(answer->plan, mission);
-        }
-        call->Answer(WithField(answer.status(), ""));
-      },
-      nullptr, call->info().stage_times});
+  const auto write = [call, response, mission = host->id()](const PlanAnswer& answer) {
+    LogPlan(mission, answer, call->info().request_id);
+    *response->mutable_plan() = ToProto(answer.plan, mission);
+  };
+  const auto job = std::make_shared<PlanJob>(
+      PlanJob::Parts{host, context_.planning_pool, std::move(order),
+                     [call, write](const absl::StatusOr<PlanAnswer>& answer) {
+                       if (answer.ok()) write(*answer);
+                       call->Answer(WithField(answer.status(), ""));
+                     },
+                     nullptr, call->info().stage_times,
+                     [call, write, host](const PlanAnswer& answer, const absl::Status& durable) {
+                       write(answer);
+                       call->AnswerUnder(OnceDurable(host), durable);
+                     }});
   call->WhenCancelled([job] { job->Cancel(); });
   job->Start();
   return absl::OkStatus();
@@ -221,7 +226,7 @@ absl::Status PlanningService::Report(const v1::ReportProgressRequest& request,
       if (!allowed.ok()) return runner->Answer(allowed);
       const auto revision = writer.conduct().Report(report, token);
       if (revision.ok()) response->set_revision(*revision);
-      AnswerWhenDurable(*host, runner, revision.status());
+      AnswerWhenDurable(host, runner, revision.status());
     });
   };
   return AnswerOnce(host->requests(), request.request_id(), request, response, call, run);

@@ -47,12 +47,16 @@ absl::Status PlanningService::SearchTeam(const std::shared_ptr<MissionHost>& hos
                                          const std::shared_ptr<UnaryCall>& call) {
   PLUMESCOUT_RETURN_IF_ERROR(host->CheckMayPlan());
   order.deadline = After(call->info().deadline, -context_.limits.deadline_margin);
-  const auto job = std::make_shared<TeamJob>(
-      TeamJob::Parts{host, context_.planning_pool, std::move(order),
-                     [call, response, mission = host->id()](absl::StatusOr<CommittedTeam> answer) {
-                       if (answer.ok()) WriteTeam(*answer, mission, *response);
-                       call->Answer(WithField(answer.status(), ""));
-                     }});
+  const auto job = std::make_shared<TeamJob>(TeamJob::Parts{
+      host, context_.planning_pool, std::move(order),
+      [call, response, mission = host->id()](absl::StatusOr<CommittedTeam> answer) {
+        if (answer.ok()) WriteTeam(*answer, mission, *response);
+        call->Answer(WithField(answer.status(), ""));
+      },
+      [call, response, host](const CommittedTeam& team, const absl::Status& durable) {
+        WriteTeam(team, host->id(), *response);
+        call->AnswerUnder(OnceDurable(host), durable);
+      }});
   call->WhenCancelled([job] { job->Cancel(); });
   job->Start();
   return absl::OkStatus();

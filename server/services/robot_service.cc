@@ -70,7 +70,7 @@ absl::Status RobotService::Join(const std::shared_ptr<MissionHost>& host, const 
     *response->mutable_ingest_state() =
         ToIngestState(registered->position, wish.robot, host->journal(),
                       context_.limits.stream_window_observations);
-    AnswerWhenDurable(*host, call, absl::OkStatus());
+    AnswerWhenDurable(host, call, absl::OkStatus());
   });
 }
 
@@ -101,7 +101,7 @@ absl::Status RobotService::Remove(const v1::RemoveRobotRequest& request,
                                 {"request_id", call->info().request_id}});
       response->set_revision(*revision);
     }
-    AnswerWhenDurable(*host, call, revision.status());
+    AnswerWhenDurable(host, call, revision.status());
   });
 }
 
@@ -178,7 +178,7 @@ absl::Status RobotService::Release(const v1::ReleaseLeaseRequest& request,
                              {"robot", name.robot},
                              {"caller", call->caller().name},
                              {"request_id", call->info().request_id}});
-  AnswerWhenDurable(*host, call, absl::OkStatus());
+  AnswerWhenDurable(host, call, absl::OkStatus());
   return absl::OkStatus();
 }
 
@@ -211,7 +211,7 @@ absl::Status RobotService::Order(const v1::OrderHomeRequest& request,
                  {"request_id", runner->info().request_id}});
         response->set_revision(*revision);
       }
-      AnswerWhenDurable(*host, runner, revision.status());
+      AnswerWhenDurable(host, runner, revision.status());
     });
   };
   return AnswerOnce(host->requests(), request.request_id(), request, response, call, run);

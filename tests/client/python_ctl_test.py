@@ -26,6 +26,25 @@ from ctl_program import (
 )
 
 
+# Runs plumescoutctl, and interrupts it when so many threads are being made.
+_INTERRUPTED = """
+import os, signal, sys, threading
+from plumescout.ctl.main import main
+
+left, make = int(sys.argv.pop(1)), threading.Thread.__init__
+
+def interrupt_and_make(*args, **kwargs):
+    global left
+    left -= 1
+    if left == 0:
+        os.kill(os.getpid(), signal.SIGINT)
+    make(*args, **kwargs)
+
+threading.Thread.__init__ = interrupt_and_make
+sys.exit(main())
+"""
+
+
 class CtlTest(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
@@ -244,6 +263,30 @@ class CtlTest(unittest.TestCase):
             run = start_ctl(*watch, target=self.target)
             self.assertTrue(run.stdout.readline())
             self.assertEqual(interrupt(run), (code, ""))
+
+    def test_an_interrupt_ends_it_while_it_opens_a_stream(self):
+        self.client.create_mission("yard")
+        self.client.register("yard", "scout")
+        watch = ("robots", "watch", "yard", "scout", "--server", self.target)
+        for threads, code, *count in ((1, 130, "--count", "9"), (2, 130, "--count", "9"), (2, 0)):
+            run = subprocess.run(
+                ["/usr/bin/python3", "-c", _INTERRUPTED, str(threads), *watch, *count],
+                capture_output=True,
+                text=True,
+                timeout=PATIENCE_S,
+            )
+            self.assertEqual((run.returncode, run.stderr), (code, ""))
+
+    def test_an_interrupted_export_leaves_nothing(self):
+        with tempfile.TemporaryDirectory() as folder:
+            with socket.create_server(("127.0.0.1", 0)) as silent:
+                silent.settimeout(PATIENCE_S)
+                target = f"127.0.0.1:{silent.getsockname()[1]}"
+                run = start_ctl("missions", "export", "hall", f"{folder}/hall", target=target)
+                with silent.accept()[0]:
+                    wait_until(lambda: os.listdir(folder), "the export has begun")
+                    self.assertEqual(interrupt(run), (130, ""))
+            self.assertEqual(os.listdir(folder), [])
 
     def test_drain_ends_the_server(self):
         server, target = start_server()

@@ -346,6 +346,21 @@ TEST_F(MissionRegistryNodesTest, WhatSleepsOrIsDamagedIsGivenUpAndWhatIsReadIsNo
   EXPECT_EQ(store_.released(), (std::map<std::string, std::int64_t>{{"mill", 7}, {"yard", 2}}));
 }
 
+TEST_F(MissionRegistryNodesTest, WhatIsBeingDeletedIsNotGivenUp) {
+  ASSERT_TRUE(registry_->Create("hall", {}).ok());
+  store_.Hold();
+  std::promise<absl::Status> removed;
+  ASSERT_TRUE(
+      registry_->Delete("hall", "", [&](const absl::Status& status) { removed.set_value(status); })
+          .ok());
+  EXPECT_TRUE(absl::IsNotFound(registry_->GiveUp({"hall", 1, "n3"})));
+  store_.AwaitHeld(1);
+  EXPECT_TRUE(absl::IsNotFound(registry_->GiveUp({"hall", 1, "n3"})));
+  EXPECT_TRUE(store_.released().empty()) << "another node could take it over";
+  store_.HeldStore::Release();
+  EXPECT_TRUE(removed.get_future().get().ok());
+}
+
 TEST_F(MissionRegistryNodesTest, MissionsAreReleasedOnceAllHaveStopped) {
   ASSERT_TRUE(registry_->Create("hall", {}).ok());
   Put("yard");

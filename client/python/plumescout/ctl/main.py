@@ -4,6 +4,7 @@
 
 import argparse
 import os
+import signal
 import sys
 
 import grpc
@@ -12,7 +13,7 @@ from google.protobuf import json_format
 
 from .. import tokens
 from .._map_files import LAYERS
-from . import commands, completion, store, words
+from . import commands, completion, interrupts, store, words
 from .output import Printer
 
 EXIT_REFUSED, EXIT_USAGE, EXIT_UNREACHABLE, EXIT_NOT_FOUND = 1, 2, 3, 4
@@ -47,13 +48,14 @@ _CODES = {
 
 def main(argv=None):
     """Returns the exit code."""
-    argv = sys.argv[1:] if argv is None else argv
-    parser = make_parser()
-    arguments, rest = parser.parse_known_args(argv)
     try:
+        if signal.getsignal(signal.SIGINT) is not signal.SIG_IGN:
+            signal.signal(signal.SIGINT, signal.default_int_handler)
+        parser = make_parser()
+        arguments, rest = parser.parse_known_args(sys.argv[1:] if argv is None else argv)
         return _carry_out(parser, arguments, rest)
     except KeyboardInterrupt:
-        return 0 if _goes_on(arguments) else EXIT_INTERRUPTED
+        return EXIT_INTERRUPTED
 
 
 def _carry_out(parser, arguments, rest):
@@ -65,14 +67,20 @@ def _carry_out(parser, arguments, rest):
         print(completion.script(parser, arguments.shell), end="")
         return 0
     try:
-        with connect(arguments) as client:
-            arguments.command(client, arguments, Printer(arguments.output))
+        client = connect(arguments)
+        code = 0 if _goes_on(arguments) else EXIT_INTERRUPTED
+        return interrupts.carry_out(lambda: _use(client, arguments), client.close, code)
     except plumescout.PlumeScoutError as error:
         print(f"plumescoutctl: {error}", file=sys.stderr)
         return _CODES.get(error.code, EXIT_REFUSED)
     except (OSError, ValueError, json_format.ParseError) as error:
         print(f"plumescoutctl: {error}", file=sys.stderr)
         return EXIT_USAGE
+
+
+def _use(client, arguments):
+    with client:
+        arguments.command(client, arguments, Printer(arguments.output))
     return 0
 
 

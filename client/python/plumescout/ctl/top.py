@@ -5,7 +5,7 @@
 import sys
 import time
 
-from . import words
+from . import interrupts, words
 from .output import as_dict, print_json, table
 
 _CLEAR = "\x1b[H\x1b[2J"
@@ -39,4 +39,4 @@ def follow(client, interval_s, count, json):
         if looks == count:
             return
         before, last_s = {mission.name: mission.revision for mission in missions}, now_s
-        time.sleep(interval_s)
+        interrupts.sleep(interval_s)
