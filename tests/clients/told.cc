@@ -11,6 +11,8 @@
 
 #include "absl/strings/escaping.h"
 #include "absl/strings/str_cat.h"
+#include "absl/time/clock.h"
+#include "absl/time/time.h"
 #include "client/mission_messages.h"
 #include "core/types/status_macros.h"
 #include "formats/file_sum.h"
@@ -253,8 +255,10 @@ Json TellEvent(const MissionEvent& event) {
 }
 
 absl::StatusOr<Json> TellFigures(ViewerClient& viewer, const MissionId& mission) {
-  FigureHistory history{{}, true};
+  constexpr absl::Duration kPause = absl::Milliseconds(20);  // or a caller has used up its rate
+  PLUMESCOUT_ASSIGN_OR_RETURN(FigureHistory history, viewer.GetFigures(mission));
   while (history.more_follow) {
+    absl::SleepFor(kPause);
     PLUMESCOUT_ASSIGN_OR_RETURN(history, viewer.GetFigures(mission));
   }
   if (history.figures.empty()) return absl::NotFoundError("no figures are told");
