@@ -312,6 +312,7 @@ void GasMap::Publish() const {
     noise_ = NoiseOf(fit, prior_scale_);
   }
   const UnreadDiscount discount(options_);
+  most_told_ppm_ = 0.0;
   known.ForEachFree([&](std::size_t i, AnchorCell cell) {
     const std::size_t index = lattice_.Index(GasCellOf(cell, inputs_.factor()));
     double deviation = engine_->mean_ppm(index);
@@ -321,6 +322,7 @@ void GasMap::Publish() const {
       variance += beside.variance_ppm2[index];
     }
     deviation = discount.Of(deviation, variance);
+    most_told_ppm_ = std::max(most_told_ppm_, std::abs(deviation));
     const GasEstimate gas =
         OffScale(options_, deviation, noise_.Of(options_, deviation) * variance);
     mean_ppm_[i] = static_cast<float>(gas.median_ppm);
@@ -371,6 +373,8 @@ const Grid<float>& GasMap::error_variance_ppm2() const {
 GasQuality GasMap::quality() const {
   Publish();
   GasQuality quality = quality_;
+  quality.mean_error_ppm = UnreadDiscount(options_).ErrorOf_ppm(
+      most_told_ppm_, quality_.mean_error_ppm, quality_.variance_error_ratio);
   quality.noise_scale = noise_.scale;
   quality.noise_log_stddev = noise_.log_stddev;
   quality.clean_air_scale = noise_.Of(options_, 0.0);

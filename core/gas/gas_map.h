@@ -208,6 +208,7 @@ class GasMap {
   mutable Grid<float> variance_ppm2_;
   mutable Grid<float> error_variance_ppm2_;  // if it has_own_errors()
   mutable NoiseEstimate noise_;
+  mutable double most_told_ppm_ = 0.0;  // of all deviations
   mutable std::shared_ptr<const GasWhatIf> what_if_;
   mutable std::vector<double> beside_ppm2_;  // see GasWhatIf, until there is one
   mutable std::vector<SensorOffset> sensor_offsets_;

@@ -2,6 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
+#include <cmath>
+
 #include "core/types/options.h"
 
 namespace plumescout {
@@ -17,21 +20,36 @@ class UnreadDiscount {
  public:
   // REQUIRES: Validate(gas).ok().
   explicit UnreadDiscount(const GasOptions& gas)
-      : per_ppm2_(Holds(gas) ? gas.unread_discount_ratio / OpenLatticeVariance_ppm2(gas) : 0.0) {}
+      : per_ppm2_(Holds(gas) ? gas.unread_discount_ratio / Unit_ppm2(gas) : 0.0) {}
 
   static bool Holds(const GasOptions& gas) {
     return gas.unread_discount_ratio > 0.0 && gas.scale == GasScale::kLinear &&
            gas.precisions == GasPrecisions::kFixed;
   }
 
-  // What is told of a deviation. If that errs by e ppm and the variance by a small share r of
-  // itself, what is told errs by e + 2 r of itself at most.
+  // What is told of a deviation.
   double Of(double deviation_ppm, double variance_ppm2) const {
     const double unread = per_ppm2_ * variance_ppm2;
     return deviation_ppm / (1.0 + unread * unread);
   }
 
+  // How far that may be off where the deviation errs by so much and the variance by a small share
+  // of itself.
+  double ErrorOf_ppm(double told_ppm, double error_ppm, double variance_error_ratio) const {
+    if (per_ppm2_ == 0.0) return error_ppm;
+    return error_ppm + 2.0 * variance_error_ratio * std::abs(told_ppm);
+  }
+
  private:
+  // epsilon_inf; that is a variance of the lattice only if lambda_d is well below 32 lambda_p, and
+  // none is below 1 / (8 lambda_p + lambda_d).
+  static double Unit_ppm2(const GasOptions& gas) {
+    constexpr double kMostLinks = 8.0;
+    return std::max(
+        OpenLatticeVariance_ppm2(gas),
+        1.0 / (kMostLinks * gas.prior_precision_per_ppm2 + gas.background_precision_per_ppm2));
+  }
+
   double per_ppm2_;
 };
 

@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "core/gas/gas_map.h"
 
 namespace plumescout {
@@ -30,6 +32,33 @@ TEST(UnreadDiscountTest, IsTheSameInAnyUnit) {
     *precision *= 1e-6;
   }
   EXPECT_NEAR(UnreadDiscount(ppb).Of(8e3, 0.2e6), 1e3 * UnreadDiscount(ppm).Of(8.0, 0.2), 1e-9);
+}
+
+TEST(UnreadDiscountTest, SaysHowFarWhatIsToldMayBeOff) {
+  const UnreadDiscount discount((GasOptions()));
+  constexpr double kError_ppm = 1e-4;
+  constexpr double kRatio = 1e-3;
+  for (const double variance_ppm2 : {0.01, 0.2, 0.5, 4.0}) {
+    const double told_ppm = discount.Of(50.0, variance_ppm2);
+    const double most_ppm = discount.ErrorOf_ppm(told_ppm, kError_ppm, kRatio);
+    for (const double off : {1.0 - kRatio, 1.0 + kRatio}) {
+      EXPECT_LE(std::abs(discount.Of(50.0 + kError_ppm, off * variance_ppm2) - told_ppm),
+                1.01 * most_ppm);
+    }
+  }
+  EXPECT_EQ(UnreadDiscount(PublishedGasOptions()).ErrorOf_ppm(50.0, kError_ppm, kRatio),
+            kError_ppm);
+}
+
+// Where the background ties each cell as much as its neighbours do, which nobody would want.
+TEST(UnreadDiscountTest, HasAUnitWhateverThePrecisions) {
+  for (const double ratio : {8.0, 31.0, 32.0, 33.0, 1000.0}) {
+    GasOptions gas;
+    gas.background_precision_per_ppm2 = ratio * gas.prior_precision_per_ppm2;
+    const double alone_ppm2 = 1.0 / gas.background_precision_per_ppm2;
+    EXPECT_GT(UnreadDiscount(gas).Of(8.0, alone_ppm2), 4.0) << ratio;
+    EXPECT_LT(UnreadDiscount(gas).Of(8.0, alone_ppm2), 8.0) << ratio;
+  }
 }
 
 TEST(UnreadDiscountTest, IsOfLinearFieldsWithGivenPrecisions) {
