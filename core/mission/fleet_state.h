@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <type_traits>
+
 #include "core/belief/belief.h"
 #include "core/mission/fleet.h"
 #include "core/types/visit_types.h"

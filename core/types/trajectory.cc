@@ -67,7 +67,6 @@ double NearestShare(Point2 from, Point2 to, Point2 place) {
 // Where a leg is nearest to a place.
 struct OnLeg {
   double share = 0.0;  // of the leg, by length
-  double time_s = 0.0;
   double distance_m = 0.0;
 };
 
@@ -77,9 +76,13 @@ OnLeg NearestOnLeg(const Waypoint& from, const Waypoint& to, Point2 place, doubl
       std::max(least_share, NearestShare(from.pose.position(), to.pose.position(), place));
   const Point2 nearest = {std::lerp(from.pose.x_m, to.pose.x_m, share),
                           std::lerp(from.pose.y_m, to.pose.y_m, share)};
+  return {share, Distance_m(nearest, place)};
+}
+
+NearestTime Timed(const Waypoint& from, const Waypoint& to, const OnLeg& there) {
   const double departure_s = from.arrival_time_s + from.dwell_s;
-  return {share, std::lerp(departure_s, to.arrival_time_s, ShareOfTime(from, to, share)),
-          Distance_m(nearest, place)};
+  return {std::lerp(departure_s, to.arrival_time_s, ShareOfTime(from, to, there.share)),
+          there.distance_m};
 }
 
 }  // namespace
@@ -99,8 +102,9 @@ std::optional<NearestTime> FindNearest(const Trajectory& trajectory, Point2 plac
   if (waypoints.empty()) return std::nullopt;
   NearestTime best = {waypoints[0].dwell_s, Distance_m(waypoints[0].pose.position(), place)};
   for (std::size_t i = 1; i < waypoints.size(); ++i) {
-    const OnLeg there = NearestOnLeg(waypoints[i - 1], waypoints[i], place, 0.0);
-    if (there.distance_m < best.distance_m) best = {there.time_s, there.distance_m};
+    const Waypoint& from = waypoints[i - 1];
+    const OnLeg there = NearestOnLeg(from, waypoints[i], place, 0.0);
+    if (there.distance_m < best.distance_m) best = Timed(from, waypoints[i], there);
   }
   return best;
 }
@@ -115,12 +119,13 @@ std::optional<NearestTime> FindOnWay(const Trajectory& trajectory, Point2 place,
   std::optional<NearestTime> first;  // as near, and nearer than just before
   for (std::size_t i = 1; i < waypoints.size(); ++i) {
     const Waypoint& from = waypoints[i - 1];
-    if (waypoints[i].arrival_time_s < gone_s) continue;
-    const OnLeg there =
-        NearestOnLeg(from, waypoints[i], place, ShareAt(from, waypoints[i], gone_s));
+    const Waypoint& to = waypoints[i];
+    if (to.arrival_time_s < gone_s) continue;
+    const OnLeg there = NearestOnLeg(from, to, place, ShareAt(from, to, gone_s));
     if (first && there.distance_m >= first->distance_m) break;
     if (there.distance_m > nearest->distance_m + kPosesErr_m) continue;
-    first = {std::max(gone_s, there.time_s), there.distance_m};
+    first = Timed(from, to, there);
+    first->time_s = std::max(gone_s, first->time_s);
     if (there.share < 1.0) break;
   }
   return first ? first : nearest;

@@ -66,6 +66,8 @@ absl::Status RateExceeded(absl::string_view what, absl::Duration wait) {
       absl::ToInt64Nanoseconds(wait));
 }
 
+absl::Status GivenUp() { return absl::CancelledError("the caller gave up"); }
+
 absl::Status Draining() {
   return WithRetryAfter(
       TypedError(absl::StatusCode::kUnavailable, reason::kDraining, "the server is going down"),

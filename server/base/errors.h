@@ -20,6 +20,8 @@ absl::Status LimitReached(absl::string_view message);
 // The caller asks for more than its share: worth another try after `wait`. `what` names the limit.
 absl::Status RateExceeded(absl::string_view what, absl::Duration wait);
 absl::Status Draining();
+// kCancelled: nobody waits for the answer any more.
+absl::Status GivenUp();
 // STORE_UNAVAILABLE: nothing can be made durable now; worth another try when the disk is well
 // again. `why` may have the reason already.
 absl::Status StoreTakesNothing(absl::string_view why);

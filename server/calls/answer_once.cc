@@ -15,6 +15,7 @@
 #include "absl/strings/str_cat.h"
 #include "core/types/status_macros.h"
 #include "proto/convert/field.h"
+#include "server/base/errors.h"
 
 namespace plumescout::server {
 namespace {
@@ -56,7 +57,7 @@ class OneOfEquals : public std::enable_shared_from_this<OneOfEquals> {
   }
 
   void GiveUp() {
-    if (Claim()) call_->Answer(absl::CancelledError("the caller gave up"));
+    if (Claim()) call_->Answer(GivenUp());
   }
 
  private:

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: PlumeScout contributors
 // SPDX-License-Identifier: Apache-2.0
 #include "server/calls/call_stop.h"
+#include "server/base/errors.h"
 
 #include <utility>
 
@@ -21,7 +22,7 @@ absl::Status CallStop::AnswerOf(const absl::Status& status) const {
 }
 
 absl::Status CallStop::why() const {
-  if (call_->is_cancelled()) return absl::CancelledError("the caller gave up");
+  if (call_->is_cancelled()) return GivenUp();
   if (SteadyNow() >= call_->info().deadline) {
     return absl::DeadlineExceededError("the past of the mission was still being read");
   }

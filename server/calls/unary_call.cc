@@ -4,14 +4,13 @@
 
 #include <utility>
 
+#include "server/base/errors.h"
 #include "server/base/grpc_status.h"
 #include "server/calls/patient_attempt.h"
 #include "server/calls/service_context.h"
 
 namespace plumescout::server {
 namespace {
-
-absl::Status GivenUp() { return absl::CancelledError("the caller gave up"); }
 
 void EndStage(const UnaryCall& call, Stage stage, SteadyTime began) {
   call.info().stage_times->Add(stage, absl::FromChrono(SteadyNow() - began));

@@ -13,6 +13,7 @@
 #include "formats/journal/event_codec.h"
 #include "proto/convert/event_line.h"
 #include "proto/convert/field.h"
+#include "server/base/errors.h"
 
 namespace plumescout::server {
 namespace {
@@ -78,7 +79,7 @@ absl::StatusOr<v1::GetMissionHistoryResponse> ReadHistory(MissionStore& store,
       response.set_next_page_token(TokenFrom(next));
       break;
     }
-    if (Stops(stop)) return absl::CancelledError("the caller gave up");
+    if (Stops(stop)) return GivenUp();
     PLUMESCOUT_ASSIGN_OR_RETURN(const std::optional<JournalRecord> record, reader->Next());
     if (!record.has_value()) break;
     PLUMESCOUT_ASSIGN_OR_RETURN(const Event event, DecodeEvent(record->bytes));

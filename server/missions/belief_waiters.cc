@@ -11,12 +11,10 @@
 namespace plumescout::server {
 namespace {
 
-absl::Status Cancelled() { return absl::CancelledError("the caller gave up"); }
-
 // Whether time or interest has left the waiter, and what to tell it then.
 std::optional<absl::Status> EndOf(const BeliefRequest& request, const MissionConduct& conduct,
                                   SteadyTime now) {
-  if (request.abandoned()) return Cancelled();
+  if (request.abandoned()) return GivenUp();
   if (now >= request.deadline) return conduct.WaitedInVain(request.wish);
   return std::nullopt;
 }
@@ -24,7 +22,7 @@ std::optional<absl::Status> EndOf(const BeliefRequest& request, const MissionCon
 // What to tell the waiter now; nothing if it has to wait on. What can be served is not too late.
 std::optional<absl::Status> AnswerTo(const BeliefRequest& request, const MissionConduct& conduct,
                                      SteadyTime now) {
-  if (request.abandoned()) return Cancelled();
+  if (request.abandoned()) return GivenUp();
   const std::optional<absl::Status> verdict = conduct.Verdict(request.wish);
   return verdict.has_value() ? verdict : EndOf(request, conduct, now);
 }
@@ -101,7 +99,7 @@ void BeliefWaiters::DropAbandoned() {
       it = abandoned ? waiters_.erase(it) : std::next(it);
     }
   }
-  for (const BeliefCallback& done : gone) done(Cancelled());
+  for (const BeliefCallback& done : gone) done(GivenUp());
 }
 
 void BeliefWaiters::Close(const absl::Status& status) {

@@ -10,6 +10,7 @@
 
 #include "absl/strings/str_cat.h"
 #include "core/plan/team/assigned_plan.h"
+#include "server/base/errors.h"
 #include "server/base/log.h"
 #include "server/missions/mission_registry.h"
 
@@ -21,8 +22,6 @@ absl::Duration ThreadCpuTime() {
   clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
   return absl::DurationFromTimespec(time);
 }
-
-absl::Status GivenUp() { return absl::CancelledError("the caller gave up"); }
 
 }  // namespace
 

@@ -6,15 +6,10 @@
 #include <utility>
 
 #include "core/mission/conduct/conduct_errors.h"
+#include "server/base/errors.h"
 #include "server/missions/mission_registry.h"
 
 namespace plumescout::server {
-namespace {
-
-absl::Status GivenUp() { return absl::CancelledError("the caller gave up"); }
-
-}  // namespace
-
 void TeamJob::Start() {
   listener_ = parts_.host->end_listeners().Add([weak = weak_from_this()](const absl::Status& end) {
     if (const auto self = weak.lock()) self->Finish(end);

@@ -40,7 +40,7 @@ void Apply(const MissionUpdate& update, MissionHost& host) {
 // The disk may take long, and the server goes down only when callers have their answers.
 MissionJournal::Callback AnswerOnceDeleted(const MissionId& id,
                                            const std::shared_ptr<UnaryCall>& call) {
-  call->WhenCancelled([call] { call->Answer(absl::CancelledError("the caller gave up")); });
+  call->WhenCancelled([call] { call->Answer(GivenUp()); });
   return [id, call](const absl::Status& removed) {
     LogInfo("mission deleted", {{"mission", id},
                                 {"code", absl::StatusCodeToString(removed.code())},

@@ -8,6 +8,7 @@
 
 #include "core/types/status_macros.h"
 #include "proto/convert/field.h"
+#include "server/base/errors.h"
 #include "server/base/grpc_status.h"
 #include "server/calls/patient_attempt.h"
 #include "server/streams/ingest_frames.h"
@@ -60,7 +61,7 @@ void IngestStream::OnWriteDone(bool ok) {
   Pump();
 }
 
-void IngestStream::OnCancel() { End(absl::CancelledError("the caller gave up")); }
+void IngestStream::OnCancel() { End(GivenUp()); }
 
 void IngestStream::OnDone() {
   context_.streams->Remove(this);

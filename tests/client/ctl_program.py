@@ -11,6 +11,23 @@ import time
 BUILD_DIR = pathlib.Path(os.environ["PLUMESCOUT_BUILD_DIR"])
 PROGRAM = pathlib.Path(__file__).resolve().parents[2] / "client/python/plumescoutctl"
 PATIENCE_S = 60
+# Runs plumescoutctl, and interrupts it when so many threads are being made.
+_INTERRUPTED = """
+import os, signal, sys, threading
+from plumescout.ctl.main import main
+
+left, make = int(sys.argv.pop(1)), threading.Thread.__init__
+
+def interrupt_and_make(*args, **kwargs):
+    global left
+    left -= 1
+    if left == 0:
+        os.kill(os.getpid(), signal.SIGINT)
+    make(*args, **kwargs)
+
+threading.Thread.__init__ = interrupt_and_make
+sys.exit(main())
+"""
 
 
 def start_server(*options, store="none"):
@@ -62,3 +79,13 @@ def interrupt(run):
     finally:
         run.kill()
     return run.returncode, said
+
+
+def interrupted_ctl(threads, *arguments):
+    """The program, done: it was interrupted when it was about to make so many threads."""
+    return subprocess.run(
+        ["/usr/bin/python3", "-c", _INTERRUPTED, str(threads), *arguments],
+        capture_output=True,
+        text=True,
+        timeout=PATIENCE_S,
+    )

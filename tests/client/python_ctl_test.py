@@ -19,30 +19,12 @@ from ctl_program import (
     PATIENCE_S,
     PROGRAM,
     interrupt,
+    interrupted_ctl,
     start_ctl,
     start_server,
     stop_server,
     wait_until,
 )
-
-
-# Runs plumescoutctl, and interrupts it when so many threads are being made.
-_INTERRUPTED = """
-import os, signal, sys, threading
-from plumescout.ctl.main import main
-
-left, make = int(sys.argv.pop(1)), threading.Thread.__init__
-
-def interrupt_and_make(*args, **kwargs):
-    global left
-    left -= 1
-    if left == 0:
-        os.kill(os.getpid(), signal.SIGINT)
-    make(*args, **kwargs)
-
-threading.Thread.__init__ = interrupt_and_make
-sys.exit(main())
-"""
 
 
 class CtlTest(unittest.TestCase):
@@ -269,12 +251,7 @@ class CtlTest(unittest.TestCase):
         self.client.register("yard", "scout")
         watch = ("robots", "watch", "yard", "scout", "--server", self.target)
         for threads, code, *count in ((1, 130, "--count", "9"), (2, 130, "--count", "9"), (2, 0)):
-            run = subprocess.run(
-                ["/usr/bin/python3", "-c", _INTERRUPTED, str(threads), *watch, *count],
-                capture_output=True,
-                text=True,
-                timeout=PATIENCE_S,
-            )
+            run = interrupted_ctl(threads, *watch, *count)
             self.assertEqual((run.returncode, run.stderr), (code, ""))
 
     def test_an_interrupted_export_leaves_nothing(self):

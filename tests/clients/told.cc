@@ -255,9 +255,12 @@ Json TellEvent(const MissionEvent& event) {
 }
 
 absl::StatusOr<Json> TellFigures(ViewerClient& viewer, const MissionId& mission) {
+  constexpr absl::Duration kPatience = absl::Seconds(60);
   constexpr absl::Duration kPause = absl::Milliseconds(20);  // or a caller has used up its rate
+  const absl::Time end = absl::Now() + kPatience;
   PLUMESCOUT_ASSIGN_OR_RETURN(FigureHistory history, viewer.GetFigures(mission));
   while (history.more_follow) {
+    if (absl::Now() > end) return absl::DeadlineExceededError("figures are still being made");
     absl::SleepFor(kPause);
     PLUMESCOUT_ASSIGN_OR_RETURN(history, viewer.GetFigures(mission));
   }
