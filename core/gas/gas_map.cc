@@ -321,10 +321,10 @@ void GasMap::Publish() const {
       deviation += beside.mean_ppm[index];
       variance += beside.variance_ppm2[index];
     }
-    deviation = discount.Of(deviation, variance);
-    most_told_ppm_ = std::max(most_told_ppm_, std::abs(deviation));
+    const double told = discount.Of(deviation, variance);
+    most_told_ppm_ = std::max(most_told_ppm_, std::abs(told));
     const GasEstimate gas =
-        OffScale(options_, deviation, noise_.Of(options_, deviation) * variance);
+        OffScale(options_, told, noise_.VarianceOf_ppm2(options_, variance, told, deviation));
     mean_ppm_[i] = static_cast<float>(gas.median_ppm);
     variance_ppm2_[i] = static_cast<float>(prior_scale_.theta * variance);
     if (has_own_errors()) error_variance_ppm2_[i] = static_cast<float>(gas.variance_ppm2);
@@ -377,7 +377,7 @@ GasQuality GasMap::quality() const {
       most_told_ppm_, quality_.mean_error_ppm, quality_.variance_error_ratio);
   quality.noise_scale = noise_.scale;
   quality.noise_log_stddev = noise_.log_stddev;
-  quality.clean_air_scale = noise_.Of(options_, 0.0);
+  quality.clean_air_scale = noise_.VarianceOf_ppm2(options_, 1.0, 0.0, 0.0);
   quality.prior_precision_scale = prior_scale_.theta;
   quality.prior_precision_log_stddev = prior_scale_.log_stddev;
   return quality;

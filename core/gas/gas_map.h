@@ -110,7 +110,7 @@ class GasMap {
   // Of the model as its precisions are given, which plans go by: on the scale of the field, and in
   // the unit in which the prior has the precisions of the options, also where they are learned.
   const Grid<float>& variance_ppm2() const;
-  // Of the concentration: in ppm, and if options.estimate_noise times NoiseEstimate::Of. It is
+  // Of the concentration: in ppm, and if options.estimate_noise by NoiseEstimate. It is
   // another raster than the above only if it has_own_errors().
   const Grid<float>& error_variance_ppm2() const;
   bool has_own_errors() const {

@@ -55,9 +55,20 @@ struct NoiseEstimate {
   // By what factor variances are larger than LevelScale says: NoiseScale with `level_energy`.
   double level_scale = 1.0;
 
-  // What the variance of a cell is scaled by.
-  double Of(const GasOptions& gas, double deviation_ppm) const {
-    return HasNoiseByLevel(gas) ? level_scale * LevelScale(gas, deviation_ppm) : scale;
+  // How far the truth of a cell may be, as a variance, from what is told of it: `told_ppm` above
+  // the background is what UnreadDiscount leaves of the field's deviation, whose own variance is
+  // `variance_ppm2`. With gusts (docs/decisions/0036-errors-where-there-is-most.md) that of the
+  // field is scaled as in clean air, gusts add their share of what there is, read or not, and
+  // what was discounted may be wrong by twice itself.
+  double VarianceOf_ppm2(const GasOptions& gas, double variance_ppm2, double told_ppm,
+                         double field_ppm) const {
+    if (!HasNoiseByLevel(gas)) return scale * variance_ppm2;
+    if (gas.gust_ratio == 0.0) return level_scale * LevelScale(gas, told_ppm) * variance_ppm2;
+    constexpr double kDiscountError = 2.0;
+    const double gust_ppm = gas.gust_ratio * told_ppm;
+    const double discount_ppm = kDiscountError * (field_ppm - told_ppm);
+    return level_scale * (LevelScale(gas, 0.0) * variance_ppm2 + gust_ppm * gust_ppm) +
+           discount_ppm * discount_ppm;
   }
 };
 

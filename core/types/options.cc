@@ -79,6 +79,7 @@ absl::Status Validate(const GasOptions& options) {
       .InRange("gas.lattice_factor", options.lattice_factor, 1, kMostLatticeFactor)
       .InRange("gas.field_reach_m", options.field_reach_m, 0.0, 1e6)
       .InRange("gas.unread_discount_ratio", options.unread_discount_ratio, 0.0, 10.0)
+      .InRange("gas.gust_ratio", options.gust_ratio, 0.0, 1.0)
       .InRange("gas.refresh_period_s", options.refresh_period_s, 0.01, 3600.0)
       .InRange("gas.audit_period_epochs", options.audit_period_epochs, 0, 1'000'000)
       .Require(options.estimate_noise || options.precisions == GasPrecisions::kFixed,
@@ -215,6 +216,7 @@ GasOptions PublishedGasOptions() {
   gas.background_precision_per_ppm2 = 0.001;
   gas.noise_by_level = false;
   gas.unread_discount_ratio = 0.0;
+  gas.gust_ratio = 0.0;
   return gas;
 }
 

@@ -79,6 +79,9 @@ struct GasOptions {
   // By how much less than the field says there is where robots that seek gas have not read
   // (core/gas/unread_discount.h), [0, 10]; 0: as it says.
   double unread_discount_ratio = 0.6;
+  // Where published variances are by level: how far gusts keep the truth from a mean, as share of
+  // the concentration (NoiseEstimate::VarianceOf_ppm2), [0, 1]; 0: by the field's variance alone.
+  double gust_ratio = 0.14;
 };
 
 // The same with the precisions of [XIT] Table I, lambda_o = 10 and lambda_d = 0.001, one scale of

@@ -31,7 +31,16 @@ constexpr int kBuildings = 12;
 constexpr int kTrials = 3;
 constexpr double kDuration_s = 300.0;
 constexpr double kQuickDuration_s = 30.0;
-constexpr const char* kStrategies[] = {"plumescout", "xit_f"};
+
+// How the readings were come by.
+struct Driving {
+  const char* name;
+  const char* strategy;
+  bool as_missions_are;  // with the default field and map; else those of [XIT]
+};
+constexpr Driving kDrivings[] = {{"plumescout", "plumescout", false},
+                                 {"xit_f", "xit_f", false},
+                                 {"plumescout_default", "plumescout", true}};
 
 struct Model {
   const char* name;
@@ -93,17 +102,27 @@ absl::StatusOr<Outcome> MapBy(const Model& model, const Scene& scene,
 
 struct Mission {
   std::string building;
-  std::string strategy;
+  Driving driving{};
   std::uint64_t seed = 1;
   std::vector<Outcome> models;
 };
+
+absl::StatusOr<GasRecording> Drive(const SceneWorld& world, const Driving& driving,
+                                   std::uint64_t seed, double duration_s) {
+  PLUMESCOUT_ASSIGN_OR_RETURN(StudyRow row, MakeStudyRow(driving.name, driving.strategy, false));
+  if (driving.as_missions_are) {
+    row.mission.gas = GasOptions{};
+    row.mission.occupancy = OccupancyOptions{};
+  }
+  return RecordGas(world, row.mission, seed, duration_s, driving.as_missions_are);
+}
 
 absl::StatusOr<std::vector<Mission>> Record(const ExperimentOptions& options,
                                             const std::vector<std::string>& scenes,
                                             const std::function<void(double)>& progress) {
   const int trials = options.trials.value_or(options.quick ? 1 : kTrials);
   const double duration_s = options.quick ? kQuickDuration_s : kDuration_s;
-  const std::size_t per_scene = std::size(kStrategies) * static_cast<std::size_t>(trials);
+  const std::size_t per_scene = std::size(kDrivings) * static_cast<std::size_t>(trials);
   const std::vector<Model> models = Models();
   std::vector<Mission> missions(scenes.size() * per_scene);
   for (std::size_t s = 0; s < scenes.size(); ++s) {
@@ -112,12 +131,10 @@ absl::StatusOr<std::vector<Mission>> Record(const ExperimentOptions& options,
     const auto run = [&](std::size_t task) -> absl::Status {
       Mission& mission = missions[s * per_scene + task];
       mission.building = SceneName(scenes[s]);
-      mission.strategy = kStrategies[task % std::size(kStrategies)];
-      mission.seed = options.seed + task / std::size(kStrategies);
-      PLUMESCOUT_ASSIGN_OR_RETURN(const StudyRow row,
-                                  MakeStudyRow(mission.strategy, mission.strategy, false));
+      mission.driving = kDrivings[task % std::size(kDrivings)];
+      mission.seed = options.seed + task / std::size(kDrivings);
       PLUMESCOUT_ASSIGN_OR_RETURN(const GasRecording recording,
-                                  RecordGas(world, row.mission, mission.seed, duration_s));
+                                  Drive(world, mission.driving, mission.seed, duration_s));
       for (const Model& model : models) {
         PLUMESCOUT_ASSIGN_OR_RETURN(const Outcome outcome, MapBy(model, world.scene(), recording));
         mission.models.push_back(outcome);
@@ -177,9 +194,15 @@ std::vector<double> ByBuilding(const std::vector<Mission>& missions, std::size_t
   return means;
 }
 
-TextTable MakeTable(const std::vector<Mission>& missions, Summary& summary) {
+// Of the missions that were driven as missions are, or of the others.
+TextTable MakeTable(std::vector<Mission> missions, bool as_missions_are, Summary& summary) {
+  std::erase_if(missions,
+                [&](const Mission& m) { return m.driving.as_missions_are != as_missions_are; });
+  const char* const prefix = as_missions_are ? "default_" : "";
   TextTable table;
-  table.title = "Means over buildings [± 95 % interval], critical cells";
+  table.title = absl::StrCat("Means over buildings [± 95 % interval], critical cells; missions of ",
+                             as_missions_are ? "plumescout as they are by default"
+                                             : "plumescout and xit_f in the field of [XIT]");
   table.columns = {"model"};
   for (const Figure& figure : kFigures) table.columns.emplace_back(figure.label);
   table.columns.emplace_back("RMSE ratio, worst building");
@@ -190,12 +213,13 @@ TextTable MakeTable(const std::vector<Mission>& missions, Summary& summary) {
     for (const Figure& figure : kFigures) {
       const Spread spread = SpreadOf(ByBuilding(missions, m, figure.of));
       row.push_back(absl::StrFormat("%.3f [± %.3f]", spread.mean, spread.half_95));
-      summary.figures.emplace_back(absl::StrCat(models[m].name, "_", figure.name), spread.mean);
+      summary.figures.emplace_back(absl::StrCat(prefix, models[m].name, "_", figure.name),
+                                   spread.mean);
     }
     const std::vector<double> ratios = ByBuilding(missions, m, kFigures[0].of);
     const double worst = *std::max_element(ratios.begin(), ratios.end());
     row.push_back(absl::StrFormat("%.3f", worst));
-    summary.figures.emplace_back(absl::StrCat(models[m].name, "_rmse_ratio_worst"), worst);
+    summary.figures.emplace_back(absl::StrCat(prefix, models[m].name, "_rmse_ratio_worst"), worst);
   }
   return table;
 }
@@ -218,7 +242,7 @@ CsvTable MakeCsv(const std::vector<Mission>& missions) {
   for (const Mission& mission : missions) {
     for (std::size_t m = 0; m < models.size(); ++m) {
       const auto& [map, gas] = mission.models[m];
-      csv.labels.push_back({mission.building, mission.strategy, models[m].name});
+      csv.labels.push_back({mission.building, mission.driving.name, models[m].name});
       csv.rows.push_back({static_cast<double>(mission.seed), map.rmse_ppm, map.log_rmse,
                           map.log_rmse_all, map.nlpd_nats, map.within_1_sigma, map.within_2_sigma,
                           map.rms_z, gas.noise_scale, gas.prior_precision_scale,
@@ -250,7 +274,8 @@ absl::StatusOr<Study> RunFieldModel(const ExperimentOptions& options) {
       "the "
       "way, for each cell that was passed. Roots: the square root of the concentration is "
       "Gaussian."};
-  study.figures.tables = {MakeTable(missions, study.summary)};
+  study.figures.tables = {MakeTable(missions, false, study.summary),
+                          MakeTable(missions, true, study.summary)};
   study.table = MakeCsv(missions);
   study.summary.about = AboutThisRun(options.seed);
   return study;

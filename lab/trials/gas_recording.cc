@@ -31,7 +31,8 @@ std::optional<HeardPose> HeardIn(const Event& event) {
 }
 
 absl::StatusOr<GasRecording> RecordGas(const SceneWorld& world, const MissionOptions& mission,
-                                       std::uint64_t seed, double duration_s) {
+                                       std::uint64_t seed, double duration_s,
+                                       bool mission_corrects_lag) {
   GasRecording recording;
   LocalOptions local;
   local.path_planners = MakeOmplPlanner;
@@ -49,6 +50,7 @@ absl::StatusOr<GasRecording> RecordGas(const SceneWorld& world, const MissionOpt
   options.plan_budget = absl::InfiniteDuration();
   options.simulated.seed = seed;
   options.correct_gas_lag = false;
+  options.mission_corrects_lag = mission_corrects_lag;
   options.end_margin_m = kStudiedEndMargin_m;
   PLUMESCOUT_RETURN_IF_ERROR(RunEpisode(planner, world, options).status());
   PLUMESCOUT_ASSIGN_OR_RETURN(const auto belief, planner.GetBelief(options.mission));

@@ -35,8 +35,10 @@ struct GasRecording {
 };
 
 // One robot drives through the world, planned in this process; what it measured of scans and
-// gas is kept. Planning goes by readings as the sensor shows them. Errors: as RunEpisode.
+// gas is kept. Planning goes by readings as the sensor shows them, unless the mission is left to
+// undo its lag along the way. Errors: as RunEpisode.
 absl::StatusOr<GasRecording> RecordGas(const SceneWorld& world, const MissionOptions& mission,
-                                       std::uint64_t seed, double duration_s);
+                                       std::uint64_t seed, double duration_s,
+                                       bool mission_corrects_lag = false);
 
 }  // namespace plumescout::lab

@@ -50,6 +50,7 @@ void Visit(OneOf<GasOptions> auto& options, auto& field) {
   field("noise_by_level", options.noise_by_level);
   field("precisions", options.precisions);
   field("unread_discount_ratio", options.unread_discount_ratio);
+  field("gust_ratio", options.gust_ratio);
 }
 
 void Visit(OneOf<GasSpecies> auto& species, auto& field) {

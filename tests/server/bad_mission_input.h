@@ -72,6 +72,7 @@ inline BadInputs BadGasOptions() {
       .Values(g + "field_reach_m", {"nan", "inf", "-1", "1.1e6"})
       .Values(g + "observation_stddev_share", {"nan", "inf", "-0.1", "11"})
       .Values(g + "unread_discount_ratio", {"nan", "inf", "-0.1", "11"})
+      .Values(g + "gust_ratio", {"nan", "inf", "-0.1", "1.1"})
       .Values(g + "scale", {"-1", "99"})
       .Values(g + "precisions", {"-1", "99"})
       .Values(g + "lattice_factor", {"-1", "0", "17"});

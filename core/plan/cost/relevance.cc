@@ -48,9 +48,24 @@ float Greatest_ppm(const std::vector<float>& values_ppm, const StopFn& stop) {
   return *std::max_element(greatest_ppm.begin(), greatest_ppm.end());
 }
 
-// Of what cells hold: their means, and with `variance_ppm2`, which may be null, a standard
-// deviation more.
-std::vector<float> RelevanceOf(const Grid<float>& mean_ppm, const Grid<float>* variance_ppm2,
+// How far above its mean a cell may be: the root of what variances of the model are scaled by,
+// LevelScale.
+struct Bound {
+  const Grid<float>& variance_ppm2;
+  float clean_scale;
+  float scale_per_ppm;  // of the deviation
+};
+
+Bound BoundOf(const Belief& belief) {
+  const GasOptions& gas = belief.options->gas;
+  const double clean_scale = LevelScale(gas, 0.0);
+  const double beside = belief.gas_quality.clean_air_scale / clean_scale;
+  return {*belief.gas_variance_ppm2, static_cast<float>(belief.gas_quality.clean_air_scale),
+          static_cast<float>(beside * (LevelScale(gas, 1.0) - clean_scale))};
+}
+
+// Of what cells hold: their means, and with `bound`, which may be null, that much more.
+std::vector<float> RelevanceOf(const Grid<float>& mean_ppm, const Bound* bound,
                                const MissionOptions& options, const CellRect& cells,
                                const StopFn& stop) {
   const auto background_ppm = static_cast<float>(options.gas.background_mean_ppm);
@@ -64,9 +79,13 @@ std::vector<float> RelevanceOf(const Grid<float>& mean_ppm, const Grid<float>* v
   // Loops of few operations each, that the compiler takes for several cells at once.
   ByRows(cells.min.y, cells.end.y, cells.width(), stop, [&](int y) {
     std::copy_n(GridRow(mean_ppm, y) + cells.min.x, width, gas_ppm.begin());
-    if (variance_ppm2 != nullptr) {
-      const float* const row_ppm2 = GridRow(*variance_ppm2, y) + cells.min.x;
-      for (std::size_t x = 0; x < width; ++x) gas_ppm[x] += std::sqrt(row_ppm2[x]);
+    if (bound != nullptr) {
+      const float* const row_ppm2 = GridRow(bound->variance_ppm2, y) + cells.min.x;
+      for (std::size_t x = 0; x < width; ++x) {
+        const float scale =
+            bound->clean_scale + bound->scale_per_ppm * std::abs(gas_ppm[x] - background_ppm);
+        gas_ppm[x] += std::sqrt(scale * row_ppm2[x]);
+      }
     }
     for (float& ppm : gas_ppm) {
       const float above_ppm = ppm - background_ppm;
@@ -95,10 +114,10 @@ std::vector<float> Relevance(const Grid<float>& mean_ppm, const MissionOptions& 
 }
 
 std::vector<float> Relevance(const Belief& belief, const CellRect& cells, const StopFn& stop) {
+  const Bound bound = BoundOf(belief);
   const bool by_bound = HasNoiseByLevel(belief.options->gas);
   std::vector<float> relevance =
-      RelevanceOf(*belief.gas_mean_ppm, by_bound ? belief.gas_error_variance_ppm2.get() : nullptr,
-                  *belief.options, cells, stop);
+      RelevanceOf(*belief.gas_mean_ppm, by_bound ? &bound : nullptr, *belief.options, cells, stop);
   if (belief.options->objective.kind == ObjectiveKind::kCompleteMap) return relevance;
   if (Stops(stop)) return relevance;
   const Grid<std::uint8_t> all(belief.geometry(), std::uint8_t{1});

@@ -32,8 +32,8 @@ std::vector<float> Relevance(const Grid<float>& mean_ppm, const MissionOptions& 
 std::vector<float> Relevance(const Grid<float>& mean_ppm, const MissionOptions& options);
 
 // The same of a mission. Where published variances know the level (HasNoiseByLevel) mu is the mean
-// and a standard deviation of them: what nobody has read may hold gas, most of all beside gas
-// (docs/decisions/0033-relevance-by-what-may-be-there.md). And by what the mission is for: of
+// and the root of the variance by LevelScale: what nobody has read may hold gas, most of all beside
+// gas (docs/decisions/0033-relevance-by-what-may-be-there.md). And by what the mission is for: of
 // another objective than a complete map, cells that are decided (JudgeCells) have none. Then in {0}
 // and [kCleanRelevance, 1.5].
 std::vector<float> Relevance(const Belief& belief, const CellRect& cells, const StopFn& stop = {});

@@ -110,11 +110,23 @@ TEST(NoiseScaleTest, IsByLevelWhereFieldsAreLinearAndPrecisionsGiven) {
   gas = {};
   gas.precisions = GasPrecisions::kLearned;
   EXPECT_FALSE(HasNoiseByLevel(gas));
-  EXPECT_EQ((NoiseEstimate{.scale = 3.0, .level_scale = 2.0}).Of(gas, 5.0), 3.0);
-  EXPECT_EQ((NoiseEstimate{.scale = 3.0, .level_scale = 2.0}).Of({}, 0.0), 10.0);
+  const NoiseEstimate noise{.scale = 3.0, .level_scale = 2.0};
+  EXPECT_EQ(noise.VarianceOf_ppm2(gas, 0.5, 5.0, 6.0), 1.5);
+  EXPECT_EQ(noise.VarianceOf_ppm2({}, 1.0, 0.0, 0.0), 10.0);
   gas = {};
   gas.unread_discount_ratio = 0.0;
   EXPECT_EQ(LevelScale(gas, 0.0), 6.5);
+}
+
+TEST(NoiseScaleTest, GustsAddAShareOfWhatThereIsAndDiscountsWhatTheyTake) {
+  const NoiseEstimate noise{.level_scale = 2.0};
+  GasOptions gas;
+  gas.gust_ratio = 0.5;
+  // 2 (5 * 0.1 + (0.5 * 4)^2) and twice the 3 ppm that were discounted.
+  EXPECT_NEAR(noise.VarianceOf_ppm2(gas, 0.1, 4.0, 7.0), 9.0 + 36.0, 1e-12);
+  EXPECT_NEAR(noise.VarianceOf_ppm2(gas, 0.1, -4.0, -7.0), 9.0 + 36.0, 1e-12);
+  gas.gust_ratio = 0.0;
+  EXPECT_NEAR(noise.VarianceOf_ppm2(gas, 0.1, 4.0, 7.0), 0.2 * LevelScale(gas, 4.0), 1e-12);
 }
 
 // By the means of a dense solution: each reading's part of the energy is lambda z (z - m).
@@ -122,10 +134,11 @@ TEST(NoiseScaleTest, VariancesGrowWithTheLevelAndWithWhatReadingsSayBeside) {
   Rng rng(3);
   const Grid<CellState> states = testing::RandomStates(14, 12, 0.2, rng);
   std::vector<DenseReading> readings = testing::RandomReadings(states, 40, rng);
-  for (const double times : {1.0, 20.0}) {
+  for (const auto& [times, gusts] : {std::pair(1.0, 0.14), {20.0, 0.14}, {1.0, 0.0}}) {
     for (DenseReading& reading : readings) reading.concentration_ppm *= times;
     GasOptions gas;
     gas.background_mean_ppm = 3.0;
+    gas.gust_ratio = gusts;
     GasMap map(gas);
     Add(readings, states, map);
     ASSERT_TRUE(map.Refresh(states, 0).ok());
@@ -143,8 +156,14 @@ TEST(NoiseScaleTest, VariancesGrowWithTheLevelAndWithWhatReadingsSayBeside) {
     EXPECT_NEAR(map.quality().clean_air_scale, 5.0 * beside, 1e-3 * beside);
     for (std::size_t i = 0; i < states.size(); ++i) {
       if (states[i] != CellState::kFree) continue;
-      const double expected =
-          beside * LevelScale(gas, map.mean_ppm()[i] - 3.0) * map.variance_ppm2()[i];
+      const double variance = map.variance_ppm2()[i];
+      const double told = map.mean_ppm()[i] - 3.0;
+      const double share = gas.unread_discount_ratio * variance / OpenLatticeVariance_ppm2(gas);
+      const double discount = told * share * share;  // of told (1 + share^2)
+      const double gust = gas.gust_ratio * told;
+      const double expected = gas.gust_ratio == 0.0 ? beside * LevelScale(gas, told) * variance
+                                                    : beside * (5.0 * variance + gust * gust) +
+                                                          4.0 * discount * discount;
       EXPECT_NEAR(map.error_variance_ppm2()[i], expected, 1e-3 * expected);
     }
   }

@@ -19,16 +19,17 @@ TEST(FieldModel, TellsOfEveryModelHowFarItIsFromTheTruth) {
   const TempFolder folder;
   const auto study = RunFieldModel(SmallStudy(folder));
   ASSERT_TRUE(study.ok()) << study.status();
-  ASSERT_THAT(study->figures.tables, SizeIs(1));
-  EXPECT_THAT(study->figures.tables[0].rows, SizeIs(10));
-  for (const auto& row : study->figures.tables[0].rows) {
-    EXPECT_EQ(row.size(), study->figures.tables[0].columns.size());
+  ASSERT_THAT(study->figures.tables, SizeIs(2));
+  for (const TextTable& table : study->figures.tables) {
+    EXPECT_THAT(table.rows, SizeIs(10));
+    for (const auto& row : table.rows) EXPECT_EQ(row.size(), table.columns.size());
   }
-  EXPECT_THAT(study->table.rows, SizeIs(2 * 10));  // two strategies
-  EXPECT_THAT(study->table.labels, SizeIs(2 * 10));
+  EXPECT_THAT(study->table.rows, SizeIs(3 * 10));  // two strategies, and as missions are
+  EXPECT_THAT(study->table.labels, SizeIs(3 * 10));
   EXPECT_THAT(study->summary.figures,
               Contains(std::pair<std::string, double>("plain_rmse_ratio", 1.0)));
   EXPECT_THAT(study->summary.figures, Contains(Key("way_root_within_2_sigma")));
+  EXPECT_THAT(study->summary.figures, Contains(Key("default_way_level_nlpd")));
 }
 
 }  // namespace field_model_test

@@ -82,6 +82,7 @@ MissionOptions Unlike() {
   options.gas.estimate_noise = false;
   options.gas.noise_by_level = false;
   options.gas.unread_discount_ratio = 0.25;
+  options.gas.gust_ratio = 0.5;
   options.keep_out = {{{{1, 2}, {3, 4}, {5, 7}}, "spill"}, {{{0, 0}, {1, 0}, {1, 1}, {0, 1}}}};
   options.gas_species = {{"methane", {}, {}, {}, {}}, {"ozone", 30.0, {}, 0.5, 0.25}};
   options.home = Point2{-1.0, 2.0};
@@ -112,6 +113,7 @@ TEST(OptionsTest, OptionsSurviveTheRoundTrip) {
   EXPECT_FALSE(back->gas.estimate_noise);
   EXPECT_FALSE(back->gas.noise_by_level);
   EXPECT_EQ(back->gas.unread_discount_ratio, 0.25);
+  EXPECT_EQ(back->gas.gust_ratio, 0.5);
   EXPECT_EQ(back->frontier.fixed_gas_threshold_ppm, 4.0);
   EXPECT_EQ(back->keep_out, Unlike().keep_out);
   EXPECT_EQ(back->gas_species, Unlike().gas_species);
@@ -319,6 +321,14 @@ TEST(OptionsTest, JournalsThatDoNotNameTheDiscountOfTheUnreadToldTheFieldAsItIs)
   };
   EXPECT_EQ(of(v1::MissionOptions()), 0.0);
   EXPECT_EQ(of(ToProto(MissionOptions())), MissionOptions().gas.unread_discount_ratio);
+}
+
+TEST(OptionsTest, JournalsThatDoNotNameGustsHadVariancesByThoseOfTheField) {
+  const auto of = [](const v1::MissionOptions& proto) {
+    return FromProto(proto, RecordedDefaults(), "options")->gas.gust_ratio;
+  };
+  EXPECT_EQ(of(v1::MissionOptions()), 0.0);
+  EXPECT_EQ(of(ToProto(MissionOptions())), MissionOptions().gas.gust_ratio);
 }
 
 TEST(OptionsTest, JournalsThatDoNotNameNoiseByLevelHadOneScale) {

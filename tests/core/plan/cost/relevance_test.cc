@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 
+#include "core/gas/noise_scale.h"
 #include "core/types/rng.h"
 #include "tests/support/measured_hall.h"
 
@@ -112,18 +113,20 @@ TEST(Relevance, OfACompleteMapIsThatOfItsMeansWhereVariancesDoNotKnowTheLevel) {
   EXPECT_EQ(Relevance(hall.belief), Relevance(*hall.belief.gas_mean_ppm, *hall.belief.options));
 }
 
-TEST(Relevance, ElseItIsThatOfAStandardDeviationMore) {
+TEST(Relevance, ElseItIsThatOfTheRootOfTheVarianceByLevelMore) {
   support::MeasuredHall hall(support::Objective(ObjectiveKind::kCompleteMap));
+  hall.belief.gas_quality.clean_air_scale = 10.0;  // twice that of LevelScale
   hall.Set({5, 5}, 9.0F, 1.0F);
   hall.Set({6, 5}, 1.0F, 4.0F);
   hall.Set({7, 5}, 9.0F, 100.0F);
   const std::vector<float> relevance = Relevance(hall.belief);
   const GridGeometry& geometry = hall.belief.geometry();
   const auto at = [&](Cell cell) { return relevance[geometry.Index(cell)]; };
-  // The greatest mean is 9 ppm, and gas is sure from 4 ppm on.
+  // The greatest mean is 9 ppm, and gas is sure from 4 ppm on. The model's variance is 0.01 ppm^2.
   EXPECT_NEAR(at({5, 5}), 1.0 + 0.5, kSingle);
-  EXPECT_NEAR(at({6, 5}), 0.05 + 0.95 * 0.75 * 0.75 + 0.5 * 3.0 / 9.0, kSingle);
-  EXPECT_NEAR(at({7, 5}), 1.5, kSingle) << "never above its bound";
+  const double bound = 1.0 + std::sqrt(2.0 * LevelScale(GasOptions(), 1.0) * 0.01);
+  EXPECT_NEAR(at({6, 5}), 0.05 + 0.95 * bound * bound / 16.0 + 0.5 * bound / 9.0, 4.0 * kSingle);
+  EXPECT_NEAR(at({7, 5}), 1.5, kSingle) << "never above its bound, whatever variance is published";
   EXPECT_EQ(Relevance(hall.belief, {{6, 5}, {7, 6}}), std::vector<float>(1, at({6, 5})));
 }
 
