@@ -116,6 +116,8 @@ struct Belief {
   // is Gas(0).published_variance_ppm2().
   std::shared_ptr<const Grid<float>> gas_variance_ppm2;
   std::shared_ptr<const Grid<float>> gas_error_variance_ppm2;  // null: that is the same
+  // The model's as Relevance goes by it, whatever others promise; null: that goes by means alone.
+  std::shared_ptr<const Grid<float>> gas_weight_variance_ppm2;
   std::shared_ptr<const GasWhatIf> gas_what_if;  // of the refresh; null before there is a free cell
   std::shared_ptr<const Grid<std::uint8_t>> sampled;  // 1: a gas reading was taken in the cell
   std::shared_ptr<const SampledCells> sampled_cells;  // of the same, when; null: not known

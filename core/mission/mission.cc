@@ -329,8 +329,8 @@ void Mission::UpdateRasters() const {
                                                   region_, OpenLatticeVariance_ppm2(options));
       if (!gas_[i].has_own_errors()) continue;
       const GasQuality quality = gas_[i].quality();
-      const double prior_variance =
-          quality.noise_scale / quality.prior_precision_scale * OpenLatticeVariance_ppm2(options);
+      const double prior_variance = quality.clean_air_scale / quality.prior_precision_scale *
+                                    OpenLatticeVariance_ppm2(options);
       rasters_.gas[i].error_variance_ppm2 =
           OnFreeCells(gas_[i].error_variance_ppm2(), *rasters_.occupancy, region_,
                       OffScale(options, 0.0, prior_variance).variance_ppm2);
@@ -372,6 +372,7 @@ std::shared_ptr<const Belief> Mission::Snapshot() const {
   belief->gas_mean_ppm = rasters_.gas[0].mean_ppm;
   belief->gas_variance_ppm2 = rasters_.gas[0].variance_ppm2;
   belief->gas_error_variance_ppm2 = rasters_.gas[0].error_variance_ppm2;
+  belief->gas_weight_variance_ppm2 = rasters_.gas[0].variance_ppm2;
   belief->gas_what_if = gas_.first().what_if();
   belief->sampled = rasters_.sampled;
   belief->sampled_cells = rasters_.gas[0].sampled_cells;

@@ -107,8 +107,8 @@ enum class WgfdScope { kReachable, kLocal };
 struct FrontierOptions {
   int min_occupancy_cell_count = 8;  // >= 1
   int min_gas_cell_count = 5;        // >= 1
-  double observed_variance_ratio =
-      0.7;  // of epsilon_inf, in (0, 10]; observed: eps <= ratio * eps_inf
+  // Of epsilon_inf, in (0, 10]; observed: eps <= ratio * eps_inf.
+  double observed_variance_ratio = 0.7;
   std::optional<double> observed_variance_ppm2;   // overrides the ratio
   double gas_percentile = 10.0;                   // p of [XIT] Eq. (17), [0, 100]
   double min_gas_threshold_ppm = 2.0;             // tau_gas,min, > 0

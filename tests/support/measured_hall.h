@@ -33,6 +33,7 @@ struct MeasuredHall {
     belief.gas_mean_ppm = mean;
     belief.gas_variance_ppm2 = variance;
     belief.gas_error_variance_ppm2 = error_variance;
+    belief.gas_weight_variance_ppm2 = variance;
     belief.gas_counters.readings = 100;
     RobotRecord& robot = belief.robots["r"];
     robot.state.id = "r";

@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <optional>
 
 #include "core/belief/objective_cells.h"
 #include "core/gas/noise_scale.h"
@@ -56,12 +57,14 @@ struct Bound {
   float scale_per_ppm;  // of the deviation
 };
 
-Bound BoundOf(const Belief& belief) {
+std::optional<Bound> BoundOf(const Belief& belief) {
   const GasOptions& gas = belief.options->gas;
+  if (belief.gas_weight_variance_ppm2 == nullptr || !HasNoiseByLevel(gas)) return std::nullopt;
   const double clean_scale = LevelScale(gas, 0.0);
   const double beside = belief.gas_quality.clean_air_scale / clean_scale;
-  return {*belief.gas_variance_ppm2, static_cast<float>(belief.gas_quality.clean_air_scale),
-          static_cast<float>(beside * (LevelScale(gas, 1.0) - clean_scale))};
+  return Bound{*belief.gas_weight_variance_ppm2,
+               static_cast<float>(belief.gas_quality.clean_air_scale),
+               static_cast<float>(beside * (LevelScale(gas, 1.0) - clean_scale))};
 }
 
 // Of what cells hold: their means, and with `bound`, which may be null, that much more.
@@ -114,10 +117,9 @@ std::vector<float> Relevance(const Grid<float>& mean_ppm, const MissionOptions& 
 }
 
 std::vector<float> Relevance(const Belief& belief, const CellRect& cells, const StopFn& stop) {
-  const Bound bound = BoundOf(belief);
-  const bool by_bound = HasNoiseByLevel(belief.options->gas);
+  const std::optional<Bound> bound = BoundOf(belief);
   std::vector<float> relevance =
-      RelevanceOf(*belief.gas_mean_ppm, by_bound ? &bound : nullptr, *belief.options, cells, stop);
+      RelevanceOf(*belief.gas_mean_ppm, bound ? &*bound : nullptr, *belief.options, cells, stop);
   if (belief.options->objective.kind == ObjectiveKind::kCompleteMap) return relevance;
   if (Stops(stop)) return relevance;
   const Grid<std::uint8_t> all(belief.geometry(), std::uint8_t{1});
