@@ -30,7 +30,7 @@ export async function lookAround(browser, scene, out) {
   await page.getByRole('img', { name: 'Objective' }).waitFor();
   await explorer.getByRole('heading', { name: 'What it was for' }).waitFor();
   await explorer.getByRole('button', { name: 'Objective' }).click();
-  for (const outlook of ['below', 'undecided']) await explorer.locator(`.legend .m-${outlook}`).waitFor();
+  for (const outlook of ['below', 'above', 'unmeasured']) await explorer.locator(`.legend .m-${outlook}`).waitFor();
   await page.screenshot({ path: join(out, 'report_objective.png') });
   await explorer.getByRole('button', { name: 'Gas' }).click();
 
