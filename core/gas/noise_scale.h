@@ -35,7 +35,7 @@ inline double NoiseScale(const FieldFit& fit) {
 // comes and goes where there is some. So the variance of a cell with the field's deviation d grows
 // by this, found in missions that were simulated (docs/decisions/0032-noise-by-level.md), with what
 // UnreadDiscount leaves (0035-what-robots-pass-by.md) and without; the root of lambda_p takes the
-// unit away.
+// unit away. With gusts this is what Relevance goes by, and of what is published clean air alone.
 inline double LevelScale(const GasOptions& gas, double deviation_ppm) {
   constexpr double kCleanAir = 0.5;
   const double per_level = UnreadDiscount::Holds(gas) ? 10.0 : 13.0;

@@ -110,11 +110,8 @@ struct Mission {
 absl::StatusOr<GasRecording> Drive(const SceneWorld& world, const Driving& driving,
                                    std::uint64_t seed, double duration_s) {
   PLUMESCOUT_ASSIGN_OR_RETURN(StudyRow row, MakeStudyRow(driving.name, driving.strategy, false));
-  if (driving.as_missions_are) {
-    row.mission.gas = GasOptions{};
-    row.mission.occupancy = OccupancyOptions{};
-  }
-  return RecordGas(world, row.mission, seed, duration_s, driving.as_missions_are);
+  if (driving.as_missions_are) row = AsMissionsAre(std::move(row));
+  return RecordGas(world, row.mission, seed, duration_s, row.robot.leaves_lag_to_mission);
 }
 
 absl::StatusOr<std::vector<Mission>> Record(const ExperimentOptions& options,

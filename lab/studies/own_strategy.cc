@@ -64,9 +64,9 @@ absl::StatusOr<TrialPlan> MakePlan(const ExperimentOptions& options,
     PLUMESCOUT_ASSIGN_OR_RETURN(
         StudyRow row, MakeStudyRow(contestant.name, contestant.strategy, contestant.of_the_paper));
     if (contestant.default_field) {
-      row.second_field = std::exchange(row.mission.gas, GasOptions{});
-      row.mission.occupancy = OccupancyOptions{};
-      row.robot.leaves_lag_to_mission = true;
+      const GasOptions published = row.mission.gas;
+      row = AsMissionsAre(std::move(row));
+      row.second_field = published;
     }
     plan.rows.push_back(std::move(row));
   }

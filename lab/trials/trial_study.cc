@@ -115,6 +115,13 @@ absl::StatusOr<StudyRow> MakeStudyRow(const std::string& name, const std::string
   return row;
 }
 
+StudyRow AsMissionsAre(StudyRow row) {
+  row.mission.gas = GasOptions{};
+  row.mission.occupancy = OccupancyOptions{};
+  row.robot.leaves_lag_to_mission = true;
+  return row;
+}
+
 absl::StatusOr<StudyRow> MakePublishedRow(const std::string& name, const std::string& strategy) {
   PLUMESCOUT_ASSIGN_OR_RETURN(StudyRow row,
                               MakeStudyRow(name, strategy, /*with_the_papers_goals=*/true));

@@ -37,6 +37,9 @@ struct StudyRow {
 absl::StatusOr<StudyRow> MakeStudyRow(const std::string& name, const std::string& strategy,
                                       bool with_the_papers_goals);
 
+// The row with field and map as missions have them by default, where the mission undoes the lag.
+StudyRow AsMissionsAre(StudyRow row);
+
 // A strategy of [XIT] to the letter: goals as above; independent samples, Eq. (8) with the variance
 // as it is, paths that end at samples, as they are found or not at all, Algorithm 2 where the robot
 // is, and gas as the sensor tells it. Errors: as ApplyStrategyRow.

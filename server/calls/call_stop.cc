@@ -1,9 +1,10 @@
 // SPDX-FileCopyrightText: PlumeScout contributors
 // SPDX-License-Identifier: Apache-2.0
 #include "server/calls/call_stop.h"
-#include "server/base/errors.h"
 
 #include <utility>
+
+#include "server/base/errors.h"
 
 namespace plumescout::server {
 

@@ -2,9 +2,11 @@
 # SPDX-License-Identifier: Apache-2.0
 """plumescoutctl and the built server as processes."""
 
+import contextlib
 import os
 import pathlib
 import signal
+import socket
 import subprocess
 import time
 
@@ -50,6 +52,14 @@ def stop_server(server):
     server.send_signal(signal.SIGTERM)
     server.wait(timeout=PATIENCE_S)
     server.stdout.close()
+
+
+@contextlib.contextmanager
+def silent_server():
+    """A socket that takes connections and never answers, and where it listens."""
+    with socket.create_server(("127.0.0.1", 0)) as silent:
+        silent.settimeout(PATIENCE_S)
+        yield silent, f"127.0.0.1:{silent.getsockname()[1]}"
 
 
 def wait_until(condition, what):

@@ -5,7 +5,6 @@
 import json
 import os
 import pathlib
-import socket
 import subprocess
 import tempfile
 import unittest
@@ -20,6 +19,7 @@ from ctl_program import (
     PROGRAM,
     interrupt,
     interrupted_ctl,
+    silent_server,
     start_ctl,
     start_server,
     stop_server,
@@ -230,9 +230,7 @@ class CtlTest(unittest.TestCase):
     def test_what_is_cut_off_is_not_done(self):
         for code, *arguments in ((130, "drain"), (130, "top", "--count", "2"), (0, "top")):
             with self.subTest(arguments=arguments):
-                with socket.create_server(("127.0.0.1", 0)) as silent:
-                    silent.settimeout(PATIENCE_S)
-                    target = f"127.0.0.1:{silent.getsockname()[1]}"
+                with silent_server() as (silent, target):
                     run = start_ctl(*arguments, target=target)
                     with silent.accept()[0]:  # now it waits for an answer
                         self.assertEqual(interrupt(run), (code, ""))
@@ -256,9 +254,7 @@ class CtlTest(unittest.TestCase):
 
     def test_an_interrupted_export_leaves_nothing(self):
         with tempfile.TemporaryDirectory() as folder:
-            with socket.create_server(("127.0.0.1", 0)) as silent:
-                silent.settimeout(PATIENCE_S)
-                target = f"127.0.0.1:{silent.getsockname()[1]}"
+            with silent_server() as (silent, target):
                 run = start_ctl("missions", "export", "hall", f"{folder}/hall", target=target)
                 with silent.accept()[0]:
                     wait_until(lambda: os.listdir(folder), "the export has begun")
