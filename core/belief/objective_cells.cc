@@ -5,10 +5,12 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
+#include <vector>
 
 #include "core/frontier/gas_frontier.h"
 #include "core/gas/gas_scale.h"
-#include "core/grid/distance_field.h"
+#include "core/grid/travel_search.h"
 #include "core/types/normal.h"
 
 namespace plumescout {
@@ -35,6 +37,7 @@ class Judge {
  public:
   Judge(const Belief& belief, const Grid<std::uint8_t>& counted, const StopFn& stop)
       : options_(*belief.options),
+        states_(*belief.occupancy),
         mean_ppm_(*belief.gas_mean_ppm),
         variance_ppm2_(*belief.Gas(0).published_variance_ppm2()),
         model_variance_ppm2_(*belief.gas_variance_ppm2),
@@ -96,52 +99,58 @@ class Judge {
     cells_.source_found = most > threshold_;
   }
 
-  // In corners, which have fewer neighbours, variances stay larger whoever passes by.
-  void JudgeBesideMeasured(bool either_side) {
-    Grid<std::uint8_t> measured(cells_.margin.geometry(), std::uint8_t{0});
-    ForEachCell([&](std::size_t i) { measured[i] = IsMeasured(i) ? 1 : 0; });
-    const double radius_cells = RadiusInCells();
-    const Grid<std::int32_t> away =
-        SquaredDistancesUpTo_cells2(measured, static_cast<int>(std::ceil(radius_cells)));
+  // Visits the cells that lie within radius_m of those of which `is_source` is true, these among
+  // them, by ways through free cells: what is known on one side of a wall says nothing of the
+  // other.
+  template <typename IsSource, typename Visit>
+  void ForEachBeside(const IsSource& is_source, const Visit& visit) const {
+    constexpr double kRoundings = 1e-4;  // of a search's ways
+    const GridGeometry& geometry = cells_.margin.geometry();
+    TravelSearch<float> search(
+        geometry, WholeRaster(geometry), Connectivity::kEightNoCornerCut,
+        [this](std::size_t i) { return states_[i] == CellState::kFree; }, stop_);
+    std::vector<SearchSource> sources;
     ForEachCell([&](std::size_t i) {
-      const bool is_near = static_cast<double>(away[i]) <= radius_cells * radius_cells;
-      if (cells_.margin[i] != kNotMeasured || !is_near || std::isnan(mean_ppm_[i])) return;
-      cells_.margin[i] = MarginAt(i, either_side);
+      if (is_source(i)) sources.push_back({geometry.CellAtIndex(i)});
+    });
+    const double radius_m = options_.objective.radius_m * (1.0 + kRoundings);
+    double searched_m = 0.0;
+    search.Run(std::move(sources), [&] {
+      searched_m += geometry.resolution_m;
+      return searched_m > radius_m || Stops(stop_);
+    });
+    ForEachCell([&](std::size_t i) {
+      if (search.Travel(geometry.CellAtIndex(i)) <= radius_m) visit(i);
     });
   }
-  double RadiusInCells() const {
-    return options_.objective.radius_m / cells_.margin.geometry().resolution_m;
+
+  // In corners, which have fewer neighbours, variances stay larger whoever passes by.
+  void JudgeBesideMeasured(bool either_side) {
+    ForEachBeside([this](std::size_t i) { return IsMeasured(i); },
+                  [&](std::size_t i) {
+                    if (cells_.margin[i] != kNotMeasured || std::isnan(mean_ppm_[i])) return;
+                    cells_.margin[i] = MarginAt(i, either_side);
+                  });
   }
 
   // What lies at the edge of what is above the threshold is never sure to be on either side.
   void PassOverEdges() {
-    const double radius_cells = RadiusInCells();
-    Grid<std::uint8_t> decided(cells_.margin.geometry(), std::uint8_t{0});
-    ForEachCell([&](std::size_t i) { decided[i] = cells_.margin[i] >= cells_.needed ? 1 : 0; });
-    const Grid<std::int32_t> away =
-        SquaredDistancesUpTo_cells2(decided, static_cast<int>(std::ceil(radius_cells)));
-    ForEachCell([&](std::size_t i) {
-      const bool doubtful = cells_.margin[i] < cells_.needed && cells_.margin[i] != kNotMeasured;
-      if (doubtful && static_cast<double>(away[i]) <= radius_cells * radius_cells) {
-        cells_.margin[i] = kDoesNotCount;
-      }
-    });
+    ForEachBeside([this](std::size_t i) { return cells_.margin[i] >= cells_.needed; },
+                  [this](std::size_t i) { PassOver(i); });
   }
-
   void PassOverSource() {
-    const GridGeometry& geometry = cells_.margin.geometry();
-    const Point2 source = geometry.Center(geometry.CellAtIndex(*cells_.strongest));
-    ForEachCell([&](std::size_t i) {
-      if (!(cells_.margin[i] < cells_.needed) || cells_.margin[i] == kNotMeasured) return;
-      const Point2 place = geometry.Center(geometry.CellAtIndex(i));
-      if (Distance_m(source, place) <= options_.objective.radius_m) {
-        cells_.margin[i] = kDoesNotCount;
-      }
-    });
+    ForEachBeside([this](std::size_t i) { return i == *cells_.strongest; },
+                  [this](std::size_t i) { PassOver(i); });
     cells_.margin[*cells_.strongest] = kDoesNotCount;
+  }
+  // If it is in doubt.
+  void PassOver(std::size_t i) {
+    const bool is_doubtful = cells_.margin[i] < cells_.needed && cells_.margin[i] != kNotMeasured;
+    if (is_doubtful) cells_.margin[i] = kDoesNotCount;
   }
 
   const MissionOptions& options_;
+  const Grid<CellState>& states_;
   const Grid<float>& mean_ppm_;
   const Grid<float>& variance_ppm2_;
   const Grid<float>& model_variance_ppm2_;

@@ -16,10 +16,10 @@ namespace plumescout {
 // How sure it is of each cell that what the objective says of it is so.
 //
 // A cell is measured once its variance by the model counts as observed (ObservedVariance_ppm2), or
-// that of one within radius_m: what the prior alone says of a place decides nothing. Of measured
-// cells the margin is how many standard deviations lie between what is known and what would make
-// the statement wrong, on the scale on which the field is Gaussian and with the variances that are
-// published:
+// that of one within radius_m: what the prior alone says of a place decides nothing. All of
+// radius_m is by ways through free cells. Of measured cells the margin is how many standard
+// deviations lie between what is known and what would make the statement wrong, on the scale on
+// which the field is Gaussian and with the variances that are published:
 //
 //   kMapAboveThreshold  from the threshold, on either side
 //   kConfirmClean       from the threshold, from below
@@ -36,8 +36,7 @@ struct ObjectiveCells {
 };
 
 // Of the cells that are not 0 in `counted`. Of no use once `stop`, which is asked all along, says
-// so. REQUIRES: the objective is not kCompleteMap; all rasters share one geometry. Cost: O(cells),
-// and for a map above the threshold times radius_m.
+// so. REQUIRES: the objective is not kCompleteMap; all rasters share one geometry. Cost: O(cells).
 ObjectiveCells JudgeCells(const Belief& belief, const Grid<std::uint8_t>& counted,
                           const StopFn& stop = {});
 

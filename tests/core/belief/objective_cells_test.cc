@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 
 #include "core/gas/gas_scale.h"
 #include "tests/support/measured_hall.h"
@@ -48,6 +49,35 @@ TEST(JudgeCells, WhatLiesBesideMeasuredCellsIsJudgedByWhatIsKnown) {
   EXPECT_FLOAT_EQ((Judged(hall).margin[Cell{3, 3}]), 10.0F);
   for (const Cell cell : {Cell{2, 3}, Cell{4, 3}, Cell{3, 2}, Cell{3, 4}}) hall.Forget(cell);
   EXPECT_EQ((Judged(hall).margin[Cell{3, 3}]), -kInfinity);
+}
+
+// A robot passed on one side of a wall with a door; of what is behind it, nothing was read.
+TEST(JudgeCells, BesideIsNotBehindAWall) {
+  MeasuredHall hall(Objective(ObjectiveKind::kConfirmClean, 1.0));
+  for (int y = 1; y <= 10; ++y) {
+    for (int x = 11; x <= 20; ++x) hall.Forget({x, y});
+    if (y == 5) continue;
+    (*hall.occupancy)[Cell{11, y}] = CellState::kOccupied;
+    (*hall.traversable)[Cell{11, y}] = 0;
+    (*hall.mean)[Cell{11, y}] = NAN;
+    (*hall.variance)[Cell{11, y}] = NAN;
+  }
+  const ObjectiveCells cells = Judged(hall);
+  EXPECT_FLOAT_EQ((cells.margin[Cell{11, 5}]), 10.0F);
+  EXPECT_FLOAT_EQ((cells.margin[Cell{12, 5}]), 10.0F);  // through the door
+  EXPECT_EQ((cells.margin[Cell{13, 5}]), -kInfinity);
+  EXPECT_EQ((cells.margin[Cell{12, 4}]),
+            -kInfinity);  // a metre from what was read beside the door,
+  EXPECT_EQ((cells.margin[Cell{12, 8}]), -kInfinity);  // or behind the wall: farther round it
+}
+
+TEST(JudgeCells, ASourceBehindAWallIsAnother) {
+  MeasuredHall hall(Objective(ObjectiveKind::kFindSources));
+  hall.Set({10, 5}, 50.0F, 9.0F);
+  hall.Set({12, 5}, 49.0F, 9.0F);
+  EXPECT_TRUE(std::isnan(Judged(hall).margin[Cell{12, 5}]));
+  for (int y = 1; y <= 10; ++y) (*hall.occupancy)[Cell{11, y}] = CellState::kOccupied;
+  EXPECT_LT((Judged(hall).margin[Cell{12, 5}]), 1.0F);
 }
 
 TEST(JudgeCells, RootsAreJudgedOnTheirScale) {
