@@ -16,8 +16,8 @@ struct FieldFit {
   // model says of their covariance, C. It is sum of lambda_k (z_k - m_0)^2 - h^T m for the field
   // H m = h. If the model is right it is as large as their number, give or take its root.
   double energy = 0.0;
-  // How many readings there are; those that are less precise than the mission's count for as much
-  // less.
+  // How many readings there are, however precise each is said to be; where they age, those that are
+  // less precise than the mission's count for as much less.
   double readings = 0.0;
   // `energy` with the part of each cell over LevelScale of its deviation.
   double level_energy = 0.0;

@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "core/gas/ageing.h"
 #include "core/types/rng.h"
 
 namespace plumescout {
@@ -51,8 +52,11 @@ FieldFit FitOf(const FieldEngine& field, const GasLattice& lattice, const GasInp
     fit.level_energy += energy / LevelScale(gas, mean_ppm);
     precision += e.evidence.precision;
   }
-  fit.readings = std::min(static_cast<double>(inputs.counters().in_posterior),
-                          precision / gas.observation_precision_per_ppm2);
+  fit.readings = static_cast<double>(inputs.counters().in_posterior);
+  // What has grown old says less of what there is now, and deviates by less of its variance.
+  if (Ageing(gas).enabled()) {
+    fit.readings = std::min(fit.readings, precision / gas.observation_precision_per_ppm2);
+  }
   return fit;
 }
 

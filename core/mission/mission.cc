@@ -102,7 +102,8 @@ absl::StatusOr<Applied> Mission::Apply(const EventBody& body) {
 
 absl::StatusOr<Applied> Mission::Change(const RobotRegistered& registration) {
   const bool is_elsewhere = !fleet_.Knows(registration.robot) ||
-                            fleet_.StateOf(registration.robot).frame != registration.frame;
+                            fleet_.StateOf(registration.robot).frame.mission_from_robot !=
+                                registration.frame.mission_from_robot;
   PLUMESCOUT_RETURN_IF_ERROR(CheckOffsets(registration.sensors, options_->gas));
   PLUMESCOUT_RETURN_IF_ERROR(CheckSpecies(registration.sensors, *options_));
   const std::vector<GasSensor> lagging = LaggingSensors(registration.robot);

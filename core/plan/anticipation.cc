@@ -28,9 +28,10 @@ struct PromisedReading {
 };
 using PromisedWay = std::vector<PromisedReading>;
 
-// Whether the robot promises anything.
+// Whether the robot promises anything: of one that may have lost its place nothing is believed.
 bool Drives(const RobotRecord& record, const Belief& belief) {
-  return record.state.has_pose && !record.state.silent && IsOnItsWay(record, belief.sample_time_ns);
+  return record.state.has_pose && !record.state.silent && !record.state.frame_suspect &&
+         IsOnItsWay(record, belief.sample_time_ns);
 }
 
 double Trust(double ahead_s) {

@@ -73,10 +73,8 @@ TEST(NoiseScaleTest, AFieldKnowsTheEnergyOfItsReadings) {
   ASSERT_TRUE(map.Refresh(states, 0).ok());
   Add({readings.begin() + 20, readings.end()}, states, map);
   ASSERT_TRUE(map.Refresh(states, 0).ok());
-  double weights = 0.0;
-  for (const DenseReading& r : readings) weights += r.precision / 10.0;
-  const double expected = NoiseScale(
-      {.energy = DenseEnergy(states, readings, gas), .readings = std::min(40.0, weights)});
+  const double expected =
+      NoiseScale({.energy = DenseEnergy(states, readings, gas), .readings = 40.0});
   ASSERT_GT(expected, 1.0);
   EXPECT_NEAR(map.noise_scale(), expected, 1e-3 * expected);
   EXPECT_EQ(map.quality().noise_scale, map.noise_scale());
@@ -144,15 +142,13 @@ TEST(NoiseScaleTest, VariancesGrowWithTheLevelAndWithWhatReadingsSayBeside) {
     ASSERT_TRUE(map.Refresh(states, 0).ok());
     const DenseField dense(states, readings, gas);
     double energy = 0.0;
-    double weights = 0.0;
     for (const DenseReading& r : readings) {
       const auto cell = std::find(dense.cells().begin(), dense.cells().end(), r.cell);
       const double mean = dense.mean_ppm()(cell - dense.cells().begin());
       const double z = r.concentration_ppm - 3.0;
       energy += r.precision * z * (r.concentration_ppm - mean) / LevelScale(gas, mean - 3.0);
-      weights += r.precision / gas.observation_precision_per_ppm2;
     }
-    const double beside = NoiseScale({.energy = energy, .readings = std::min(40.0, weights)});
+    const double beside = NoiseScale({.energy = energy, .readings = 40.0});
     EXPECT_NEAR(map.quality().clean_air_scale, 5.0 * beside, 1e-3 * beside);
     for (std::size_t i = 0; i < states.size(); ++i) {
       if (states[i] != CellState::kFree) continue;
@@ -167,6 +163,45 @@ TEST(NoiseScaleTest, VariancesGrowWithTheLevelAndWithWhatReadingsSayBeside) {
       EXPECT_NEAR(map.error_variance_ppm2()[i], expected, 1e-3 * expected);
     }
   }
+}
+
+TEST(NoiseScaleTest, IsOneOfSensorsThatAreAsNoisyAsTheySay) {
+  Rng rng(7);
+  const Grid<CellState> states = Room(20);
+  for (const double stddev_ppm : {0.3, 1.0, 10.0}) {
+    GasMap map{GasOptions()};
+    for (int k = 0; k < 600; ++k) {
+      const Point2 place{rng.Uniform(0.0, 2.0), rng.Uniform(0.0, 2.0)};
+      map.Add(0, place, {stddev_ppm * rng.Gaussian(), stddev_ppm * stddev_ppm});
+    }
+    ASSERT_TRUE(map.Refresh(states, 0).ok());
+    EXPECT_LT(map.noise_scale(), 1.2) << stddev_ppm;
+    EXPECT_LT(map.quality().clean_air_scale, 6.0) << stddev_ppm;
+  }
+}
+
+// What was read long ago deviates by less than its variance has grown to: it counts for less, too.
+TEST(NoiseScaleTest, ReadingsThatAgedMakeAFieldNoSurer) {
+  GasOptions gas = Estimated();
+  gas.ageing_half_life_s = 1.0;
+  double scale[2];
+  for (const bool old_ones : {false, true}) {
+    Rng rng(5);
+    GasMap map(gas);
+    constexpr std::int64_t kNow_ns = 1'000'000'000'000;
+    for (int k = 0; k < 400; ++k) {
+      const Point2 place{rng.Uniform(0.0, 2.0), rng.Uniform(0.0, 2.0)};
+      const double ppm = 20.0 * rng.Gaussian();
+      if (k >= 200)
+        map.Add(kNow_ns, place, {ppm});
+      else if (old_ones)
+        map.Add(0, place, {0.0});
+    }
+    ASSERT_TRUE(map.Refresh(Room(20), kNow_ns).ok());
+    scale[old_ones ? 1 : 0] = map.noise_scale();
+  }
+  EXPECT_GT(scale[0], 10.0);
+  EXPECT_NEAR(scale[1], scale[0], 0.05 * scale[0]);
 }
 
 TEST(NoiseScaleTest, IsNotEstimatedUnlessAskedFor) {

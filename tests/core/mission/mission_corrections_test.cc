@@ -242,6 +242,10 @@ TEST_F(MissionCorrectionsTest, AnotherFrameEndsTheSuspicionTheSameDoesNot) {
   ASSERT_TRUE(conduct_->Register(again).ok());
   EXPECT_TRUE(State().frame_suspect);
   again.lease_token = 3;
+  again.frame.position_stddev_m = 0.3;  // the same frame, less well known
+  ASSERT_TRUE(conduct_->Register(again).ok());
+  EXPECT_TRUE(State().frame_suspect);
+  again.lease_token = 4;
   again.frame.mission_from_robot = {0.1, 0.0, 0.0};
   ASSERT_TRUE(conduct_->Register(again).ok());
   EXPECT_FALSE(State().frame_suspect);

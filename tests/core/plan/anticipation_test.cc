@@ -82,7 +82,7 @@ TEST(PromisedReadings, AreThoseOnTheWayAhead) {
   EXPECT_EQ(Promised(belief).size(), 4U) << "by its progress";
 }
 
-TEST(PromisedReadings, AreNoneOfWhoIsAloneStandsIsSilentOrStrayed) {
+TEST(PromisedReadings, AreNoneOfWhoIsAloneStandsIsSilentStrayedOrLost) {
   Belief belief = Hall();
   AddRobot("r", {{8.0, 3.0}, {12.0, 3.0}}, belief);
   EXPECT_TRUE(Promised(belief).empty()) << "its own plan";
@@ -93,6 +93,9 @@ TEST(PromisedReadings, AreNoneOfWhoIsAloneStandsIsSilentOrStrayed) {
   Belief silent = belief;
   silent.robots["b"].state.silent = true;
   EXPECT_TRUE(Promised(silent).empty());
+  Belief lost = belief;
+  lost.robots["b"].state.frame_suspect = true;
+  EXPECT_TRUE(Promised(lost).empty());
   Belief overdue = belief;
   overdue.sample_time_ns += 60'000'000'000;
   EXPECT_TRUE(Promised(overdue).empty());
