@@ -35,13 +35,20 @@ void NoticeReader::Open(const RobotSession& session, absl::Time now) {
 }
 
 void NoticeReader::Take(RobotNotice notice) {
-  if (const auto* standing = std::get_if<RobotStanding>(&notice)) standing_ = *standing;
+  if (const auto* standing = std::get_if<RobotStanding>(&notice)) Take(*standing);
   if (auto* invalidated = std::get_if<PlanInvalidated>(&notice)) {
     invalidated_ = std::move(*invalidated);
   }
   if (const auto* assigned = std::get_if<PlanAssigned>(&notice)) {
     assigned_ = std::max(assigned_, assigned->plan);
   }
+}
+
+void NoticeReader::Take(const RobotStanding& standing) {
+  standing_ = standing;
+  const bool is_news = standing.frame_suspect != place_doubted_;
+  place_doubted_ = standing.frame_suspect;
+  if (is_news && observer_ != nullptr) observer_->OnPlaceDoubted(place_doubted_);
 }
 
 void NoticeReader::Break(const absl::Status& why, absl::Time now) {

@@ -9,6 +9,7 @@
 #include "absl/time/time.h"
 #include "client/backoff.h"
 #include "client/planner_client.h"
+#include "client/robot_observer.h"
 #include "core/types/ids.h"
 #include "core/types/robot_notice.h"
 
@@ -18,9 +19,11 @@ namespace plumescout::client {
 // meanwhile it is as if nothing had been told. Nothing blocks. Not thread-safe.
 class NoticeReader {
  public:
-  // The client outlives it. Not `enabled`: it never asks.
-  NoticeReader(PlannerClient& client, const BackoffOptions& backoff, bool enabled = true)
-      : client_(client), backoff_(backoff), is_served_(enabled) {}
+  // Client and observer, who is told of doubts in the robot's place, outlive it. Not `enabled`: it
+  // never asks.
+  NoticeReader(PlannerClient& client, const BackoffOptions& backoff, bool enabled = true,
+               RobotObserver* observer = nullptr)
+      : client_(client), backoff_(backoff), is_served_(enabled), observer_(observer) {}
 
   // Takes in what has come by now, and sees to it that a watch of this session is open.
   void Poll(const RobotSession& session, absl::Time now);
@@ -40,6 +43,7 @@ class NoticeReader {
  private:
   void Open(const RobotSession& session, absl::Time now);
   void Take(RobotNotice notice);
+  void Take(const RobotStanding& standing);
   void Break(const absl::Status& why, absl::Time now);
 
   PlannerClient& client_;
@@ -51,6 +55,8 @@ class NoticeReader {
   RobotStanding standing_;
   std::optional<PlanInvalidated> invalidated_;
   PlanId assigned_ = 0;  // the newest; 0: none
+  RobotObserver* observer_;
+  bool place_doubted_ = false;  // by the latest standing, whatever became of that watch
 };
 
 }  // namespace plumescout::client

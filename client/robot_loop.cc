@@ -42,7 +42,7 @@ RobotLoop::RobotLoop(PlannerClient& client, RobotDriver& driver, const RobotLoop
       driver_(driver),
       options_(options),
       observer_(observer),
-      notices_(client, options.ingest.backoff, options.watch) {
+      notices_(client, options.ingest.backoff, options.watch, &observer_) {
   options_.follower.tick_s = options_.tick_s;
   options_.blockage.radius_m = options_.participation.radius_m;
 }

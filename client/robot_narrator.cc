@@ -24,6 +24,13 @@ void RobotNarrator::OnPlanFailure(const absl::Status& status) {
   Warn(absl::StrCat("no plan: ", status.ToString()));
 }
 
+void RobotNarrator::OnPlaceDoubted(bool doubted) {
+  if (!doubted) return Say("scans fit the map again, or poses were corrected");
+  Warn(
+      "scans contradict the map: the robot may not be where it says it is, and nothing that it "
+      "senses counts until its poses are corrected or its scans fit again");
+}
+
 void RobotNarrator::OnRejected(const ObservationRejected& rejected) {
   Warn(absl::StrCat("observation ", rejected.sequence, " refused: ", rejected.status.ToString()));
 }

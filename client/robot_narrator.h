@@ -25,6 +25,7 @@ class RobotNarrator : public RobotObserver {
   void OnPlan(const PlanArrival& arrival) override;
   void OnReport(PlanId plan, ProgressOutcome outcome) override;
   void OnPlanFailure(const absl::Status& status) override;
+  void OnPlaceDoubted(bool doubted) override;
   void OnRejected(const ObservationRejected& rejected) override;
   void OnLink(const absl::Status& status) override;
   void OnRolledBack(std::int64_t applied_sequence, std::int64_t forgotten) override;

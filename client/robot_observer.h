@@ -44,6 +44,9 @@ class RobotObserver {
   virtual void OnPlan(const PlanArrival&) {}
   virtual void OnReport(PlanId, ProgressOutcome) {}
   virtual void OnPlanFailure(const absl::Status&) {}
+  // Whether the server doubts that the robot is where it says it is: its scans contradict the map.
+  // Until poses are corrected, or fit again, nothing that it senses counts.
+  virtual void OnPlaceDoubted(bool /*doubted*/) {}
 
   // On the ingest session's thread.
   virtual void OnRejected(const ObservationRejected&) {}

@@ -44,6 +44,7 @@ class RobotRecorder final : public RobotObserver {
   void OnPlan(const PlanArrival& arrival) override;
   void OnReport(PlanId plan, ProgressOutcome outcome) override;
   void OnPlanFailure(const absl::Status& status) override { next_.OnPlanFailure(status); }
+  void OnPlaceDoubted(bool doubted) override { next_.OnPlaceDoubted(doubted); }
   void OnRejected(const ObservationRejected& rejected) override { next_.OnRejected(rejected); }
   void OnLink(const absl::Status& status) override { next_.OnLink(status); }
   void OnRolledBack(std::int64_t applied_sequence, std::int64_t forgotten) override {

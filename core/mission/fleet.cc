@@ -202,6 +202,8 @@ void Fleet::Advance(const RobotId& robot, const Observation& observation, bool r
   Member& member = robots_.at(robot);
   RobotState& state = member.record.state;
   state.applied_sequence = LastSequence(observation);
+  const std::int64_t time_ns = plumescout::MissionTime_ns(observation, state.clock_offset_ns);
+  if (!refused && SaysWhen(observation)) member.clock.Take(time_ns);
   if (refused) {
     ++state.rejected_observations;
   } else if (const auto* status = std::get_if<RobotStatus>(&observation.payload)) {
@@ -218,7 +220,7 @@ void Fleet::Advance(const RobotId& robot, const Observation& observation, bool r
     member.record.travelled_m = member.odometer.travelled_m();
     if (!member.record.first_place) {
       member.record.first_place = state.pose.position();
-      member.first_ns = MissionTime_ns(observation, state.clock_offset_ns);
+      member.first_ns = time_ns;
     }
   }
 }

@@ -12,6 +12,7 @@
 #include "absl/status/status.h"
 #include "absl/status/statusor.h"
 #include "core/belief/belief.h"
+#include "core/mission/clock_history.h"
 #include "core/mission/odometer.h"
 #include "core/mission/way_correction.h"
 #include "core/occupancy/scan_inserter.h"
@@ -68,6 +69,8 @@ class Fleet {
   // How far the mission's time is ahead of the robot's clock from now on; kInvalidArgument beyond
   // kMaxClockOffset_ns.
   absl::Status NoteClock(const ClockOffsetNoted& noted);
+  // When an observation of that time of the robot's clock was taken. REQUIRES: Knows(robot).
+  std::int64_t MissionTime_ns(const RobotId& robot, std::int64_t robot_ns) const;
   // A robot that is sent home claims no goal, and no mission waits for it to be complete. Its live
   // plan stays until it reports or has another: it drives there still.
   absl::Status OrderHome(const HomeOrdered& order);
@@ -150,6 +153,7 @@ class Fleet {
     std::vector<GasSensor> sensors;
     bool removed = false;       // only its log and its lease are remembered
     std::int64_t first_ns = 0;  // when its first observation was taken
+    ClockHistory clock;
 
     template <typename Archive, typename Self>
     static void VisitState(Archive& archive, Self& self);

@@ -38,8 +38,15 @@ absl::Status Fleet::NoteClock(const ClockOffsetNoted& noted) {
       Checker()
           .InRange("offset_ns", noted.offset_ns, -kMaxClockOffset_ns, kMaxClockOffset_ns)
           .status());
-  member->record.state.clock_offset_ns = noted.offset_ns;
+  std::int64_t& offset_ns = member->record.state.clock_offset_ns;
+  if (offset_ns != noted.offset_ns) member->clock.End(offset_ns);
+  offset_ns = noted.offset_ns;
   return absl::OkStatus();
+}
+
+std::int64_t Fleet::MissionTime_ns(const RobotId& robot, std::int64_t robot_ns) const {
+  const Member& member = robots_.at(robot);
+  return member.clock.MissionTime_ns(robot_ns, member.record.state.clock_offset_ns);
 }
 
 absl::Status Fleet::OrderHome(const HomeOrdered& order) {

@@ -32,11 +32,14 @@ void Fleet::LivePlan::VisitState(Archive& archive, Self& self) {
 template <typename Archive, typename Self>
 void Fleet::Member::VisitState(Archive& archive, Self& self) {
   auto& [record, odometer, lease_token, log_epoch, last_phase, live, heard_ns, sensors, removed,
-         first_ns] = self;
+         first_ns, clock] = self;
   archive(record, odometer, lease_token, log_epoch, last_phase, live, heard_ns, removed);
   archive.Since(2, sensors);
   // Every robot has one: with it missions of before would not have the hash that they had.
-  if constexpr (!Archive::kHashes) archive.Since(2, first_ns);
+  if constexpr (!Archive::kHashes) {
+    archive.Since(2, first_ns);
+    archive.Since(4, clock);
+  }
 }
 
 template <typename Archive, typename Self>

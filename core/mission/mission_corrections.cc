@@ -5,11 +5,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <limits>
 #include <optional>
 #include <utility>
 
 #include "absl/strings/str_cat.h"
 #include "core/mission/mission.h"
+#include "core/mission/observation_check.h"
 #include "core/types/species.h"
 #include "core/types/status_macros.h"
 
@@ -28,15 +31,16 @@ absl::Status CheckTimes(const PoseCorrection& correction, std::int64_t own_ns) {
 
 }  // namespace
 
-// Times of the past are taken by the robot's clock as it runs now.
+// Times of the past are taken as those of what was measured then, whatever became of the clock.
 absl::Status Mission::TakeCorrection(const RobotId& robot, const Observation& observation,
                                      const PoseCorrection& correction) {
   PLUMESCOUT_RETURN_IF_ERROR(CheckTimes(correction, observation.sample_time_ns));
-  const std::int64_t clock_offset_ns = fleet_.StateOf(robot).clock_offset_ns;
-  const std::int64_t time_ns = observation.sample_time_ns + clock_offset_ns;
+  const std::int64_t time_ns = MissionTime_ns(observation, fleet_.StateOf(robot).clock_offset_ns);
   std::vector<PoseAnchor> anchors = correction.anchors;
+  std::int64_t before_ns = std::numeric_limits<std::int64_t>::min();
   for (PoseAnchor& anchor : anchors) {
-    anchor.sample_time_ns += clock_offset_ns;
+    before_ns = std::max(before_ns + 1, fleet_.MissionTime_ns(robot, anchor.sample_time_ns));
+    anchor.sample_time_ns = before_ns;
     anchor.pose = fleet_.InMission(robot, anchor.pose);
   }
   PLUMESCOUT_RETURN_IF_ERROR(

@@ -24,7 +24,7 @@ namespace plumescout {
 namespace {
 
 // Of what SaveState writes. Who changes that counts it up, and reads the old one on.
-constexpr std::uint32_t kStateVersion = 3;
+constexpr std::uint32_t kStateVersion = 4;
 constexpr std::uint32_t kOldestStateVersion = 1;
 constexpr std::uint32_t kVersionWithHistory = 2;
 

@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <vector>
+
 #include "absl/time/clock.h"
 #include "tests/client/fake_planner_client.h"
 
@@ -22,9 +24,15 @@ class NoticeReaderTest : public ::testing::Test {
     reader_.Poll(session_, now_);
   }
 
+  struct Doubts final : RobotObserver {
+    void OnPlaceDoubted(bool doubted) override { told.push_back(doubted); }
+    std::vector<bool> told;
+  };
+
   FakePlannerClient server_;
   RobotSession session_;
-  NoticeReader reader_{server_, {.initial = absl::Seconds(1), .jitter = 0.0}};
+  Doubts doubts_;
+  NoticeReader reader_{server_, {.initial = absl::Seconds(1), .jitter = 0.0}, true, &doubts_};
   absl::Time now_ = absl::UnixEpoch();
 };
 
@@ -41,6 +49,25 @@ TEST_F(NoticeReaderTest, KeepsTheNewestOfEachKind) {
   ASSERT_NE(reader_.FindInvalidation(4), nullptr);
   EXPECT_EQ(reader_.FindInvalidation(4)->reason, InvalidationReason::kWayBlocked);
   EXPECT_EQ(server_.watches_opened(), 1);
+}
+
+TEST_F(NoticeReaderTest, DoubtsInTheRobotsPlaceAreToldOnce) {
+  Poll();
+  server_.Notify(RobotStanding{});
+  server_.Notify(RobotStanding{.frame_suspect = true});
+  server_.Notify(RobotStanding{.paused = true, .frame_suspect = true});
+  Poll();
+  EXPECT_EQ(doubts_.told, std::vector<bool>{true});
+  server_.BreakLink();
+  Poll();
+  server_.MendLink();
+  Poll(absl::Seconds(2));
+  server_.Notify(RobotStanding{.frame_suspect = true});  // the first notice of the next watch
+  Poll();
+  EXPECT_EQ(doubts_.told, std::vector<bool>{true});
+  server_.Notify(RobotStanding{});
+  Poll();
+  EXPECT_EQ(doubts_.told, (std::vector<bool>{true, false}));
 }
 
 TEST_F(NoticeReaderTest, ABrokenWatchIsOpenedAgainAfterAWhile) {

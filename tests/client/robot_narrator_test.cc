@@ -20,6 +20,8 @@ TEST(RobotNarratorTest, SaysInALineEachWhatHappens) {
   narrator.OnReport(3, ProgressOutcome::kBlocked);
   narrator.OnLink(absl::UnavailableError("gone"));
   narrator.OnRolledBack(7, 2);
+  narrator.OnPlaceDoubted(true);
+  narrator.OnPlaceDoubted(false);
   RobotResult result;
   result.elapsed_s = 9.0;
   result.plans = 4;
@@ -30,6 +32,10 @@ TEST(RobotNarratorTest, SaysInALineEachWhatHappens) {
             "plumescout-test: link: UNAVAILABLE: gone\n"
             "plumescout-test: the server was set back: it has 7 observations of this robot, "
             "although it had more; the rest is sent again, but for 2 that are gone\n"
+            "plumescout-test: scans contradict the map: the robot may not be where it says it is, "
+            "and nothing that it senses counts until its poses are corrected or its scans fit "
+            "again\n"
+            "plumescout-test: scans fit the map again, or poses were corrected\n"
             "plumescout-test: done after 9 s: 4 plans, 0 m, 0 of 0 observations applied, "
             "0 durable\n");
 }

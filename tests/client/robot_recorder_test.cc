@@ -30,6 +30,7 @@ class Counter final : public RobotObserver {
   void OnPlan(const PlanArrival&) override { ++plans; }
   void OnReport(PlanId, ProgressOutcome) override { ++reports; }
   void OnPlanFailure(const absl::Status&) override { ++others; }
+  void OnPlaceDoubted(bool) override { ++others; }
   void OnRejected(const ObservationRejected&) override { ++others; }
   void OnLink(const absl::Status&) override { ++others; }
   void OnRolledBack(std::int64_t, std::int64_t) override { ++others; }
@@ -68,6 +69,7 @@ TEST_F(RobotRecorderTest, WhatHappensIsInTheFileAndToldToTheNext) {
         {.time_ns = 21'000'000'000, .elapsed_s = 1, .pose = {}, .plan = plan, .rpc_wall = {}});
     recorder.OnReport(1, ProgressOutcome::kReached);
     recorder.OnPlanFailure(absl::InternalError(""));
+    recorder.OnPlaceDoubted(true);
     recorder.OnRejected({});
     recorder.OnLink({});
     recorder.OnRolledBack(0, 0);
@@ -82,7 +84,7 @@ TEST_F(RobotRecorderTest, WhatHappensIsInTheFileAndToldToTheNext) {
   EXPECT_EQ(next_.logged, static_cast<int>(log.size()));
   EXPECT_EQ(next_.plans, 1);
   EXPECT_EQ(next_.reports, 1);
-  EXPECT_EQ(next_.others, 5);
+  EXPECT_EQ(next_.others, 6);
 }
 
 TEST_F(RobotRecorderTest, PlacesAreKeptEverySecondTick) {

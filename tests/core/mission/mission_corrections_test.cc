@@ -251,6 +251,28 @@ TEST_F(MissionCorrectionsTest, AnotherFrameEndsTheSuspicionTheSameDoesNot) {
   EXPECT_FALSE(State().frame_suspect);
 }
 
+// Its clock is set forward by half a minute on the way; the anchors are of before.
+TEST_F(MissionCorrectionsTest, AnchorsMeanWhatWasMeasuredThenWhateverTheClockShowsNow) {
+  constexpr std::int64_t kSet_ns = 30 * kSecond_ns;
+  Drive(60, {0.4, 0.0, 0.0});
+  ASSERT_TRUE(conduct_->NoteClock({"a", -kSet_ns}, 1).ok());
+  for (int i = 0; i < 40; ++i, ++step_) {
+    const Pose2 truth = TruthAt(step_);
+    ASSERT_TRUE(Send(TimeOf(step_) + kSet_ns, truth, GasReading{10.0 * truth.x_m, 0.0}).ok());
+  }
+  PoseCorrection correction;
+  for (const int step : {0, 30, 59}) correction.anchors.push_back({TimeOf(step), TruthAt(step)});
+  correction.anchors.push_back({TimeOf(60) + kSet_ns, TruthAt(60)});
+  ASSERT_TRUE(Send(TimeOf(step_) + kSet_ns, TruthAt(step_), correction).ok());
+  const auto belief = conduct_->Snapshot();
+  const GridGeometry& geometry = belief->geometry();
+  for (int step = 0; step < step_; step += step < 60 ? 5 : 1) {
+    const Cell cell = geometry.CellAt(TruthAt(step).position());
+    EXPECT_EQ((*belief->sampled)[cell], 1) << step;
+  }
+  ExpectReplays();
+}
+
 TEST_F(MissionCorrectionsTest, RefusalsNameFieldAndValueAndChangeNothing) {
   Drive(20);
   const auto before = conduct_->Snapshot()->gas_counters;
