@@ -26,8 +26,8 @@ class ClockHistory {
 
   // The mission's time at which an observation of that time of the robot's clock was taken;
   // `offset_ns` is in force now. Times that the clock never showed, when it was set forward, are
-  // those of the last observation before; of times that it showed twice, when it was set back, it is
-  // the later one.
+  // those of the last observation before; of times that it showed twice, when it was set back, it
+  // is the later one.
   std::int64_t MissionTime_ns(std::int64_t robot_ns, std::int64_t offset_ns) const {
     std::int64_t time_ns = robot_ns + offset_ns;
     for (auto stretch = stretches_.rbegin(); stretch != stretches_.rend(); ++stretch) {

@@ -22,6 +22,7 @@ namespace plumescout::server {
 namespace {
 
 // The last readings are in the posterior that stays, if there can be one: the writer says if not.
+// Of a sensor that lags the very last is not: it waits for the next.
 absl::Status Finish(MissionHost& host, MissionWriter& writer) {
   if (host.standing().state() == MissionState::kFinished) return absl::OkStatus();
   writer.conduct().FreshBelief().status().IgnoreError();

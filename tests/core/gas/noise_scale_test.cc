@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <functional>
 #include <vector>
 
 #include "core/gas/gas_map.h"
@@ -249,6 +250,31 @@ TEST(NoiseScaleTest, OneReadingBeyondAllOthersMakesItUnsure) {
       }
     }
     EXPECT_GT(map.noise_scale(), 1e9);
+  }
+}
+
+// Of missions by default: errors are finite, wider than the model's and than gusts of what is told.
+TEST(NoiseScaleTest, DefaultErrorsOfOddReadingsAreFiniteAndWide) {
+  const auto everywhere = [](double ppm) { return [ppm](int) { return ppm; }; };
+  const std::vector<std::function<double(int)>> odd = {
+      everywhere(0.0), everywhere(50.0), everywhere(1e6), [](int k) { return k == 0 ? 1e6 : 0.0; }};
+  for (std::size_t i = 0; i < odd.size(); ++i) {
+    for (const int count : {1, 200}) {
+      const GasOptions gas;
+      GasMap map(gas);
+      for (int k = 0; k < count; ++k) {
+        const Point2 place{0.05 + 0.1 * (k % 8), 0.05 + 0.1 * (k / 8 % 4)};  // in one half
+        map.Add(0, place, {odd[i](k)});
+      }
+      ASSERT_TRUE(map.Refresh(Room(8), 0).ok());
+      for (std::size_t cell = 0; cell < map.mean_ppm().size(); ++cell) {
+        const double error_ppm2 = map.error_variance_ppm2()[cell];
+        const double gust_ppm = gas.gust_ratio * map.mean_ppm()[cell];
+        EXPECT_TRUE(std::isfinite(error_ppm2)) << i << ' ' << count;
+        EXPECT_GE(error_ppm2, 4.99 * map.variance_ppm2()[cell]) << i << ' ' << count;
+        EXPECT_GE(error_ppm2, 0.999 * gust_ppm * gust_ppm) << i << ' ' << count;
+      }
+    }
   }
 }
 
