@@ -169,6 +169,9 @@ void GasMap::VisitState(Archive& archive, Self& self) {
                             lattice.width >= 0 && IsNearOrigin(lattice.width) &&
                             lattice.height >= 0 && IsNearOrigin(lattice.height) &&
                             lattice.size() <= archive.room_bytes() / sizeof(CellInput);
+    archive.Require(!is_lattice || (self.active_cells_ >= 0 &&
+                                    static_cast<std::size_t>(self.active_cells_) <= lattice.size()),
+                    "more cells of the gas lattice are active than it has");
     const GasCellRect& rect = self.inputs_.rect();
     archive.Require(is_lattice && (rect.empty() || HasRoom(lattice, rect, 0)),
                     "the gas lattice is out of range");
