@@ -66,9 +66,9 @@ TEST(JudgeCells, BesideIsNotBehindAWall) {
   EXPECT_FLOAT_EQ((cells.margin[Cell{11, 5}]), 10.0F);
   EXPECT_FLOAT_EQ((cells.margin[Cell{12, 5}]), 10.0F);  // through the door
   EXPECT_EQ((cells.margin[Cell{13, 5}]), -kInfinity);
-  EXPECT_EQ((cells.margin[Cell{12, 4}]),
-            -kInfinity);  // a metre from what was read beside the door,
-  EXPECT_EQ((cells.margin[Cell{12, 8}]), -kInfinity);  // or behind the wall: farther round it
+  // A metre from what was read, through the wall; farther round it.
+  EXPECT_EQ((cells.margin[Cell{12, 4}]), -kInfinity);
+  EXPECT_EQ((cells.margin[Cell{12, 8}]), -kInfinity);
 }
 
 TEST(JudgeCells, ASourceBehindAWallIsAnother) {

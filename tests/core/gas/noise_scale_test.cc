@@ -185,7 +185,7 @@ TEST(NoiseScaleTest, IsOneOfSensorsThatAreAsNoisyAsTheySay) {
 TEST(NoiseScaleTest, ReadingsThatAgedMakeAFieldNoSurer) {
   GasOptions gas = Estimated();
   gas.ageing_half_life_s = 1.0;
-  double scale[2];
+  std::vector<double> scale;  // without old ones, and with
   for (const bool old_ones : {false, true}) {
     Rng rng(5);
     GasMap map(gas);
@@ -193,13 +193,14 @@ TEST(NoiseScaleTest, ReadingsThatAgedMakeAFieldNoSurer) {
     for (int k = 0; k < 400; ++k) {
       const Point2 place{rng.Uniform(0.0, 2.0), rng.Uniform(0.0, 2.0)};
       const double ppm = 20.0 * rng.Gaussian();
-      if (k >= 200)
+      if (k >= 200) {
         map.Add(kNow_ns, place, {ppm});
-      else if (old_ones)
+      } else if (old_ones) {
         map.Add(0, place, {0.0});
+      }
     }
     ASSERT_TRUE(map.Refresh(Room(20), kNow_ns).ok());
-    scale[old_ones ? 1 : 0] = map.noise_scale();
+    scale.push_back(map.noise_scale());
   }
   EXPECT_GT(scale[0], 10.0);
   EXPECT_NEAR(scale[1], scale[0], 0.05 * scale[0]);
