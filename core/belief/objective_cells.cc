@@ -99,9 +99,8 @@ class Judge {
     cells_.source_found = most > threshold_;
   }
 
-  // Visits the cells that lie within radius_m of those of which `is_source` is true, these among
-  // them, by ways through free cells: what is known on one side of a wall says nothing of the
-  // other.
+  // Visits the cells that lie within radius_m of those of which `is_source` is true, some of these
+  // too, by ways through free cells: what is known on one side of a wall says nothing of the other.
   template <typename IsSource, typename Visit>
   void ForEachBeside(const IsSource& is_source, const Visit& visit) const {
     constexpr double kRoundings = 1e-4;  // of a search's ways
@@ -109,9 +108,20 @@ class Judge {
     TravelSearch<float> search(
         geometry, WholeRaster(geometry), Connectivity::kEightNoCornerCut,
         [this](std::size_t i) { return states_[i] == CellState::kFree; }, stop_);
+    // Ways lead out over the rim of what is a source: all else within it need not be begun from.
+    const auto is_beyond = [&](std::size_t i) {
+      return states_[i] == CellState::kFree && !is_source(i);
+    };
+    const auto width = static_cast<std::size_t>(geometry.width);
+    const std::size_t last_row = cells_.margin.size() - width;
     std::vector<SearchSource> sources;
     ForEachCell([&](std::size_t i) {
-      if (is_source(i)) sources.push_back({geometry.CellAtIndex(i)});
+      if (!is_source(i)) return;
+      const std::size_t x = i % width;
+      const bool is_rim = (x > 0 && is_beyond(i - 1)) || (x + 1 < width && is_beyond(i + 1)) ||
+                          (i >= width && is_beyond(i - width)) ||
+                          (i < last_row && is_beyond(i + width));
+      if (is_rim) sources.push_back({geometry.CellAtIndex(i)});
     });
     const double radius_m = options_.objective.radius_m * (1.0 + kRoundings);
     double searched_m = 0.0;
