@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/mission/map_rebuild.h"
 
-#include <cstddef>
 #include <utility>
 
 #include "core/occupancy/scan_inserter.h"
@@ -12,15 +11,13 @@ namespace {
 
 constexpr std::int64_t kLeastTime_ns = 1'000'000'000;
 constexpr std::int64_t kTimeOfScan_ns = 300'000;
-constexpr std::size_t kScansBetweenStops = 64;
 
 }  // namespace
 
 void InsertAll(const std::vector<PlacedScan>& scans, const StopFn& stop, OccupancyGrid& grid) {
   ScanInserter inserter;
-  for (std::size_t i = 0; i < scans.size(); ++i) {
-    if (stop && i % kScansBetweenStops == 0 && stop()) return;
-    const PlacedScan& placed = scans[i];
+  for (const PlacedScan& placed : scans) {
+    if (stop && stop()) return;
     inserter.Insert(placed.pose, Unpack(*placed.scan), placed.scan->masks, grid, placed.times)
         .IgnoreError();
   }

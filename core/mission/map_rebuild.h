@@ -30,7 +30,8 @@ struct RebuildInputs {
   StopFn stop;
 };
 
-// Inserts them. A scan that the grid has no room for is passed over.
+// Inserts them, until `stop`, which is asked before each. A scan that the grid has no room for is
+// passed over.
 void InsertAll(const std::vector<PlacedScan>& scans, const StopFn& stop, OccupancyGrid& grid);
 
 // The map from scratch, with corrected poses: made beside the mission, which goes on meanwhile.

@@ -168,10 +168,11 @@ class WayHistory {
                             const std::vector<PoseAnchor>& anchors) const;
   template <typename Archive, typename Self>
   static void VisitSpecies(Archive& archive, Self& self);
-  void Merge(std::int64_t below_number);
+  void Merge(std::int64_t below_number, std::int64_t most_bytes);
   void GiveUp();
   std::int64_t OldestNumber() const;
-  std::int64_t base_bytes() const;
+  std::int64_t base_map_bytes() const;
+  std::int64_t base_bytes() const;                // with readings
   std::vector<ReadingStore> NoReadings() const {  // by species
     std::vector<ReadingStore> stores;
     for (const GasOptions& gas : gases_) stores.emplace_back(gas, occupancy_.resolution_m);

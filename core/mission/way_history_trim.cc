@@ -8,7 +8,6 @@
 #include <utility>
 
 #include "core/mission/memory_estimate.h"
-#include "core/types/stop.h"
 
 namespace plumescout {
 namespace {
@@ -18,9 +17,13 @@ constexpr std::int64_t kMergedParts = 8;  // an eighth of the entries at a time
 
 }  // namespace
 
+std::int64_t WayHistory::base_map_bytes() const {
+  return base_map_ ? kBaseCellBytes * static_cast<std::int64_t>(base_map_->geometry().size()) : 0;
+}
+
 std::int64_t WayHistory::base_bytes() const {
   if (!base_map_) return 0;
-  std::int64_t bytes = kBaseCellBytes * static_cast<std::int64_t>(base_map_->geometry().size());
+  std::int64_t bytes = base_map_bytes();
   for (const ReadingStore& readings : base_readings_) bytes += ReadingBytes(readings);
   return bytes;
 }
@@ -42,9 +45,10 @@ std::int64_t WayHistory::OldestNumber() const {
 }
 
 void WayHistory::Trim(std::int64_t most_bytes) {
-  while (bytes_ > 0 && bytes() > most_bytes) {
+  // The map that scans are merged into only grows: once that alone is too much, no merging helps.
+  while (bytes_ > 0 && bytes() > most_bytes && base_map_bytes() <= most_bytes) {
     const std::int64_t oldest = OldestNumber();
-    Merge(oldest + 1 + (next_number_ - oldest) / kMergedParts);
+    Merge(oldest + 1 + (next_number_ - oldest) / kMergedParts, most_bytes);
   }
   if (bytes() > most_bytes) GiveUp();
 }
@@ -59,8 +63,8 @@ void WayHistory::GiveUp() {
   base_sampled_ = NothingSampled();
 }
 
-// What is in quarantine is lost.
-void WayHistory::Merge(std::int64_t below_number) {
+// What is in quarantine is lost, and all the rest once the map takes more than `most_bytes`.
+void WayHistory::Merge(std::int64_t below_number, std::int64_t most_bytes) {
   if (!base_map_) base_map_ = Base();
   std::vector<std::pair<std::int64_t, PlacedScan>> scans;
   for (auto& [robot, way] : ways_) {
@@ -89,7 +93,8 @@ void WayHistory::Merge(std::int64_t below_number) {
   std::vector<PlacedScan> placed;
   placed.reserve(scans.size());
   for (auto& [at, scan] : scans) placed.push_back(std::move(scan));
-  InsertAll(placed, StopFn(), *base_map_);
+  InsertAll(
+      placed, [&] { return base_map_bytes() > most_bytes; }, *base_map_);
 }
 
 }  // namespace plumescout

@@ -41,6 +41,15 @@ TEST_F(WayHistoryTrimTest, WhatIsTrimmedStaysInTheMapButCannotBeCorrected) {
   EXPECT_EQ(history_.bytes(), 0);
 }
 
+TEST_F(WayHistoryTrimTest, WhoseMapIsTooMuchIsGivenUp) {
+  for (int t = 0; t < 40; ++t) Scan(1.0 + 0.1 * t, t * kSecond_ns);
+  history_.Trim(1000);
+  EXPECT_FALSE(history_.keeps());
+  EXPECT_EQ(history_.bytes(), 0);
+  EXPECT_TRUE(history_.ScansFrom(0).empty());
+  EXPECT_EQ(history_.Base().geometry().size(), 0u) << "nor is there a part of what was merged";
+}
+
 TEST_F(WayHistoryTrimTest, ReadingsThatAgeTakeMemoryWhenTheyAreMergedToo) {
   MissionOptions options;
   options.gas.ageing_half_life_s = 60.0;
