@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "absl/strings/str_cat.h"
+#include "core/gas/coarse_prior.h"
 #include "core/gas/gas_scale.h"
 #include "core/gas/unread_discount.h"
 #include "core/types/status_macros.h"
@@ -126,6 +127,7 @@ absl::Status GasMap::Rebuild(std::int64_t time_ns) {
   while (FieldBytes(active_cells_, static_cast<std::int64_t>(lattice.size())) > most_field_bytes_ &&
          inputs_.Coarsen()) {
     options_.lattice_factor = inputs_.factor();
+    field_options_.prior = PriorOf(options_, prior_scale_);
     lattice_ = {};
     lattice = RoomyLattice();
     inputs = inputs_.On(lattice);
@@ -303,7 +305,7 @@ void GasMap::Publish() const {
   if (engine_ == nullptr || has_failed_) return;
   OffsetEstimate beside;
   if (inputs_.sensors().HasColumns()) beside = EstimateSensors();
-  const bool is_beside = !beside.mean_ppm.empty();
+  const bool has_offsets = !beside.mean_ppm.empty();
   if (options_.estimate_noise) {
     FieldFit fit = FitOf(*engine_, lattice_, inputs_, options_);
     // Offsets explain as much of each cell's part.
@@ -311,16 +313,16 @@ void GasMap::Publish() const {
     fit.energy -= beside.explained;
     noise_ = NoiseOf(fit, prior_scale_);
   }
+  AddVarianceWithinCells(WithPriorScale(options_, prior_scale_), lattice_.size(),
+                         beside.variance_ppm2);
   const UnreadDiscount discount(options_);
   most_told_ppm_ = 0.0;
   known.ForEachFree([&](std::size_t i, AnchorCell cell) {
     const std::size_t index = lattice_.Index(GasCellOf(cell, inputs_.factor()));
     double deviation = engine_->mean_ppm(index);
     double variance = engine_->variance_ppm2(index);
-    if (is_beside) {
-      deviation += beside.mean_ppm[index];
-      variance += beside.variance_ppm2[index];
-    }
+    if (has_offsets) deviation += beside.mean_ppm[index];
+    if (!beside.variance_ppm2.empty()) variance += beside.variance_ppm2[index];
     const double told = discount.Of(deviation, variance);
     most_told_ppm_ = std::max(most_told_ppm_, std::abs(told));
     const GasEstimate gas =

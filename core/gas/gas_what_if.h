@@ -31,8 +31,8 @@ struct ForeseenCell {
 class GasWhatIf {
  public:
   // `prior_scale`: what variances are multiplied by, see PriorScale. `beside_ppm2`: what unknown
-  // offsets of sensors add to each variance, by lattice cell, if there are any. Further readings
-  // are taken not to change it, though they would make it less.
+  // offsets of sensors and places within a coarse cell add to each variance, by lattice cell, if
+  // anything. Further readings are taken not to change it, though they would make it less.
   GasWhatIf(FieldSnapshot field, const GasLattice& lattice, const GasInputs& inputs,
             double prior_scale = 1.0, std::vector<double> beside_ppm2 = {})
       : field_(std::move(field)),

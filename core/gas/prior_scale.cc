@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/gas/ageing.h"
+#include "core/gas/coarse_prior.h"
 #include "core/types/rng.h"
 
 namespace plumescout {
@@ -102,7 +103,7 @@ NoiseEstimate NoiseOf(const FieldFit& fit, const PriorScale& prior) {
 
 GasOptions WithPriorScale(GasOptions gas, const PriorScale& prior) {
   gas.prior_precision_per_ppm2 *= prior.theta;
-  gas.background_precision_per_ppm2 *= prior.theta;
+  gas.background_precision_per_ppm2 = BackgroundPrecision_per_ppm2(gas) * prior.theta;
   return gas;
 }
 

@@ -76,7 +76,7 @@ PriorScale Improved(const PriorScale& now, const PriorFit& fit, std::int64_t rea
 // s beside theta, never so small that theta / s is above 1.
 NoiseEstimate NoiseOf(const FieldFit& fit, const PriorScale& prior);
 
-// Precisions of the options times theta.
+// Precisions of the options on their lattice (core/gas/coarse_prior.h), times theta.
 GasOptions WithPriorScale(GasOptions gas, const PriorScale& prior);
 FieldPrior PriorOf(const GasOptions& gas, const PriorScale& prior);
 

@@ -112,8 +112,6 @@ absl::Status Validate(const Rectangle& region) {
       .status();
 }
 
-}  // namespace
-
 absl::Status Validate(const SiteOptions& options) {
   constexpr double kMaxStride = 1000;
   constexpr double kMaxCandidates = 16;  // 2^M subsets of them are priced
@@ -129,6 +127,8 @@ absl::Status Validate(const SiteOptions& options) {
       .InRange("planning.sites.sweep_leg_stride", options.sweep_leg_stride, 1, kMaxStride)
       .status();
 }
+
+}  // namespace
 
 absl::Status Validate(const PlanningOptions& options) {
   PLUMESCOUT_RETURN_IF_ERROR(Validate(options.sites));
@@ -214,6 +214,7 @@ GasOptions PublishedGasOptions() {
   GasOptions gas;
   gas.observation_precision_per_ppm2 = 10.0;
   gas.background_precision_per_ppm2 = 0.001;
+  gas.background_by_area = false;
   gas.noise_by_level = false;
   gas.unread_discount_ratio = 0.0;
   gas.gust_ratio = 0.0;

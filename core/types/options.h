@@ -48,9 +48,12 @@ struct GasOptions {
   // A reading's variance grows by 1/lambda_o in this time (lambda_t = half-life * lambda_o);
   // 0: readings do not age; else [0.001, 1e9].
   double ageing_half_life_s = 0.0;
-  // A gas cell is this many occupancy cells wide and high, [1, 16]. lambda_p links gas cells, so
-  // the field is smoother in metres on a coarser lattice.
+  // A gas cell is this many occupancy cells wide and high, [1, 16].
   int lattice_factor = 1;
+  // Whether lambda_d is of the area of an occupancy cell, so that a coarser lattice has the same
+  // field (core/gas/coarse_prior.h); false: of a gas cell, whatever its area, and the field is
+  // smoother in metres on a coarser lattice.
+  bool background_by_area = true;
   // Of sample time. Refreshes that no plan asks for are this far apart, those for the sake of
   // readings and those for the sake of the map each among themselves; [0.01, 3600].
   double refresh_period_s = 0.05;
@@ -85,7 +88,7 @@ struct GasOptions {
 };
 
 // The same with the precisions of [XIT] Table I, lambda_o = 10 and lambda_d = 0.001, one scale of
-// noise, and the field told as it is.
+// noise, lambda_d of a gas cell, and the field told as it is.
 GasOptions PublishedGasOptions();
 
 inline constexpr int kMostLatticeFactor = 16;
@@ -317,7 +320,6 @@ struct MissionOptions {
 absl::Status Validate(const OccupancyOptions& options);
 absl::Status Validate(const GasOptions& options);
 absl::Status Validate(const FrontierOptions& options);
-absl::Status Validate(const SiteOptions& options);
 absl::Status Validate(const PlanningOptions& options);
 absl::Status Validate(const ObjectiveOptions& options);
 absl::Status Validate(const MissionOptions& options);

@@ -51,6 +51,7 @@ void Visit(OneOf<GasOptions> auto& options, auto& field) {
   field("precisions", options.precisions);
   field("unread_discount_ratio", options.unread_discount_ratio);
   field("gust_ratio", options.gust_ratio);
+  field("background_by_area", options.background_by_area);
 }
 
 void Visit(OneOf<GasSpecies> auto& species, auto& field) {

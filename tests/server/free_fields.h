@@ -17,6 +17,7 @@ inline std::set<std::string> BoolFields() {
       "CreateMissionRequest.options.stamp_by_arrival",
       "CreateMissionRequest.options.gas.estimate_noise",
       "CreateMissionRequest.options.gas.noise_by_level",
+      "CreateMissionRequest.options.gas.background_by_area",
       "CreateMissionRequest.options.keep_scans",
       "CreateMissionRequest.options.planning.draw_goals",
       "CreateMissionRequest.options.planning.raw_variance",

@@ -230,7 +230,7 @@ TEST(WayReadingsTest, WhatIsUntoldStaysSo) {
 // The bytes of a way with three points and an interval of three stays that is not told yet: in
 // front the number of points, 32 bytes for each, the latest deviation, the state, and whether
 // there is an interval.
-class WayStateTest : public testing::Test {
+class WayStateTest : public ::testing::Test {
  protected:
   static constexpr std::size_t kPoint = sizeof(std::uint32_t);
   static constexpr std::size_t kPointBytes = 32;

@@ -66,7 +66,7 @@ PlanningOptions UnlikePlanning() {
 MissionOptions Unlike() {
   MissionOptions options;
   options.occupancy = {0.2, 0.3, 0.2, 0.7, 1.0, -0.5, 4.0, 50.0, 10'000, 0.02};
-  options.gas = {1.0, 2.0, 0.01, 3.0, 60.0, 2, 5.0, 0.1};
+  options.gas = {1.0, 2.0, 0.01, 3.0, 60.0, 2, false, 5.0, 0.1};
   options.frontier = {9, 6, 0.5, 0.25, 20.0, 3.0, 4.0, WgfdScope::kLocal};
   options.planning = UnlikePlanning();
   options.max_robot_count = 3;
@@ -114,6 +114,7 @@ TEST(OptionsTest, OptionsSurviveTheRoundTrip) {
   EXPECT_FALSE(back->gas.noise_by_level);
   EXPECT_EQ(back->gas.unread_discount_ratio, 0.25);
   EXPECT_EQ(back->gas.gust_ratio, 0.5);
+  EXPECT_FALSE(back->gas.background_by_area);
   EXPECT_EQ(back->frontier.fixed_gas_threshold_ppm, 4.0);
   EXPECT_EQ(back->keep_out, Unlike().keep_out);
   EXPECT_EQ(back->gas_species, Unlike().gas_species);
@@ -329,6 +330,14 @@ TEST(OptionsTest, JournalsThatDoNotNameGustsHadVariancesByThoseOfTheField) {
   };
   EXPECT_EQ(of(v1::MissionOptions()), 0.0);
   EXPECT_EQ(of(ToProto(MissionOptions())), MissionOptions().gas.gust_ratio);
+}
+
+TEST(OptionsTest, JournalsThatDoNotNameAreasHadTheBackgroundOfAGasCell) {
+  const auto of = [](const v1::MissionOptions& proto) {
+    return FromProto(proto, RecordedDefaults(), "options")->gas.background_by_area;
+  };
+  EXPECT_FALSE(of(v1::MissionOptions()));
+  EXPECT_TRUE(of(ToProto(MissionOptions())));
 }
 
 TEST(OptionsTest, JournalsThatDoNotNameNoiseByLevelHadOneScale) {
