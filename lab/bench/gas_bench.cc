@@ -4,20 +4,18 @@
 // The gas posterior, from scratch and online: CPU time, memory, and error against other solvers,
 // which are timed on the same maps in the same run.
 
-#include <malloc.h>
-
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <fstream>
 #include <functional>
-#include <limits>
 #include <memory>
 #include <string>
 #include <vector>
 
 #include "absl/status/status.h"
 #include "absl/strings/str_cat.h"
+#include "core/gas/field_audit.h"
+#include "core/gas/gas_map.h"
 #include "core/types/quantile.h"
 #include "core/types/status_macros.h"
 #include "lab/about/cpu_time.h"
@@ -26,6 +24,7 @@
 #include "lab/bench/gas_case.h"
 #include "lab/bench/gas_events.h"
 #include "lab/bench/gas_peers.h"
+#include "lab/bench/process_memory.h"
 #include "lab/rivals/belief_propagation.h"
 
 namespace plumescout::lab {
@@ -56,25 +55,11 @@ double Cpu_ms(const std::function<void()>& run) {
   return ThreadCpu_ms() - begin_ms;
 }
 
-// A line of /proc/self/status, in MB; NaN if there is none.
-double ProcessMemory_mb(const std::string& key) {
-  constexpr double kMegabytesPerKibibyte = 1024e-6;
-  std::ifstream file("/proc/self/status");
-  for (std::string line; std::getline(file, line);) {
-    if (line.rfind(key, 0) == 0) {
-      return std::stod(line.substr(key.size())) * kMegabytesPerKibibyte;
-    }
-  }
-  return std::numeric_limits<double>::quiet_NaN();
-}
-
 // By how much the process grows, at most, while a map is computed from scratch.
 absl::Status MeasureMemory(const std::string& name, const GasCase& c, BenchSummary& summary) {
-  malloc_trim(0);
-  std::ofstream("/proc/self/clear_refs") << "5";  // resets the peak
-  const double before_mb = ProcessMemory_mb("VmRSS:");
+  const double before_mb = ResetPeak_mb();
   PLUMESCOUT_RETURN_IF_ERROR(FreshMap(c).status());
-  summary.Set(name, ProcessMemory_mb("VmHWM:") - before_mb);
+  summary.Set(name, PeakMemory_mb() - before_mb);
   return absl::OkStatus();
 }
 
@@ -256,6 +241,37 @@ absl::Status MeasureAudit(const Size& size, bool open, const GasCase& c, BenchSu
   return status;
 }
 
+// An epoch: what the writer has to do before and after, the rest beside it; and what it is before
+// where precisions are learned, with a step of them.
+absl::Status MeasureEpoch(const Size& size, bool open, const GasCase& c, BenchSummary& summary) {
+  for (const auto precisions : {GasPrecisions::kFixed, GasPrecisions::kLearned}) {
+    const bool learns = precisions == GasPrecisions::kLearned;
+    GasOptions options;
+    options.precisions = precisions;
+    std::vector<double> begin_ms;
+    std::vector<double> recompute_ms;
+    std::vector<double> adopt_ms;
+    absl::Status status;
+    for (int i = 0; i < size.repeats; ++i) {
+      GasMap map(options);
+      for (std::size_t k = 0; k < c.positions.size(); ++k) {
+        map.Add(0, c.positions[k], {c.concentrations_ppm[k]});
+      }
+      status.Update(map.Refresh(c.states, 0));
+      begin_ms.push_back(Cpu_ms([&] { status.Update(map.BeginEpoch(0)); }));
+      PLUMESCOUT_RETURN_IF_ERROR(status);
+      recompute_ms.push_back(Cpu_ms([&] { map.epoch()->Recompute(); }));
+      adopt_ms.push_back(Cpu_ms([&] { status.Update(map.Adopt()); }));
+      PLUMESCOUT_RETURN_IF_ERROR(status);
+    }
+    const std::string what = learns ? "learning_epoch" : "epoch";
+    summary.Set(size.Name(what + "_begin", open, "ms"), Median(begin_ms));
+    summary.Set(size.Name(what, open, "ms"), Median(recompute_ms));
+    summary.Set(size.Name(what + "_adopt", open, "ms"), Median(adopt_ms));
+  }
+  return absl::OkStatus();
+}
+
 absl::Status MeasureSize(const Size& size, BenchSummary& summary) {
   for (const bool open : {false, true}) {
     const auto make = open ? OpenCase : IndoorCase;
@@ -266,6 +282,7 @@ absl::Status MeasureSize(const Size& size, BenchSummary& summary) {
     PLUMESCOUT_RETURN_IF_ERROR(MeasureWorstReadings(size, open, c, summary));
     PLUMESCOUT_RETURN_IF_ERROR(MeasureBeliefPropagation(size, open, c, summary));
     PLUMESCOUT_RETURN_IF_ERROR(MeasureAudit(size, open, c, summary));
+    PLUMESCOUT_RETURN_IF_ERROR(MeasureEpoch(size, open, c, summary));
   }
   return absl::OkStatus();
 }

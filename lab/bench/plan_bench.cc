@@ -10,6 +10,7 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <memory>
 #include <string>
 #include <thread>
 #include <utility>
@@ -19,6 +20,8 @@
 #include "absl/strings/str_cat.h"
 #include "absl/time/clock.h"
 #include "absl/time/time.h"
+#include "core/belief/belief.h"
+#include "core/belief/objective_assessment.h"
 #include "core/plan/paths/anytime_xit.h"
 #include "core/plan/paths/path_planners.h"
 #include "core/plan/selection/expected_information.h"
@@ -139,6 +142,17 @@ void StopAtRandom(const Strategy& strategy, const PlanMoment& moment, double who
   }
 }
 
+// What a mission with an objective looks at once a second.
+double Assessment_ms(const Belief& belief) {
+  constexpr int kRepeats = 5;
+  auto options = std::make_shared<MissionOptions>(*belief.options);
+  options->objective.kind = ObjectiveKind::kMapAboveThreshold;
+  options->objective.threshold_ppm = 5.0;
+  Belief with_objective = belief;
+  with_objective.options = std::move(options);
+  return MedianCpu_ms(kRepeats, [&] { AssessObjective(with_objective); });
+}
+
 // Whole plans of the default strategy in missions under way: frontiers, information map, search,
 // pricing.
 absl::Status MeasureMissions(const std::string& only, BenchSummary& summary) {
@@ -157,6 +171,7 @@ absl::Status MeasureMissions(const std::string& only, BenchSummary& summary) {
                                                  .rounds = size.rounds,
                                                  .seed = summary.seed()}));
     std::vector<double> times_ms;
+    std::vector<double> assessments_ms;
     StoppedPlans stopped;
     Rng rng(summary.seed());
     double candidates = 0.0;
@@ -167,6 +182,7 @@ absl::Status MeasureMissions(const std::string& only, BenchSummary& summary) {
       times_ms.push_back(MedianCpu_ms(
           kRepeats, [&] { plan = strategy->Plan(*moment.belief, request, kNeverStop); }));
       PLUMESCOUT_RETURN_IF_ERROR(plan.status());
+      assessments_ms.push_back(Assessment_ms(*moment.belief));
       StopAtRandom(*strategy, moment, times_ms.back(), rng, stopped);
       candidates += static_cast<double>(plan->candidates.size());
     }
@@ -174,6 +190,7 @@ absl::Status MeasureMissions(const std::string& only, BenchSummary& summary) {
     summary.Set(name + "_ms", Median(times_ms));
     summary.Set(name + "_worst_ms", *std::max_element(times_ms.begin(), times_ms.end()));
     stopped.Set(name, summary);
+    summary.Set("objective_assessment_" + size.name + "_ms", Median(assessments_ms));
     summary.Set(name + "_candidates", candidates / static_cast<double>(moments.size()));
   }
   return absl::OkStatus();
