@@ -34,6 +34,7 @@
 #include "lab/bench/bench_summary.h"
 #include "lab/bench/plan_case.h"
 #include "lab/bench/planner_registry.h"
+#include "lab/bench/team_plans.h"
 #include "lab/worlds/grid_oracle.h"
 #include "lab/worlds/known_building.h"
 #include "lab/worlds/mid_mission.h"
@@ -386,6 +387,7 @@ absl::Status Measure(int worlds, int buildings, BenchSummary& summary) {
   MeasureStopsByWall(worlds, summary);
   PLUMESCOUT_RETURN_IF_ERROR(MeasureScaling(buildings, summary));
   MeasureRegistry(worlds, summary);
+  PLUMESCOUT_RETURN_IF_ERROR(MeasureTeams(summary));
   SetPromised(summary);
   return absl::OkStatus();
 }
@@ -397,12 +399,15 @@ int main(int argc, char** argv) {
   int worlds = 50;
   int buildings = 6;
   std::string mission;
+  bool teams = false;
   return plumescout::lab::BenchProgram(
              "Every planner on the same worlds: CPU time, goals reached, price over exact searches")
       .AddCount("--worlds", worlds, "Random halls")
       .AddCount("--buildings", buildings, "Large buildings of each size")
       .AddText("--mission", mission, "Only whole plans of this mission, as 16x20m")
+      .AddSwitch("--teams", teams, "Only plans for whole teams")
       .Run(argc, argv, [&](plumescout::lab::BenchSummary& summary) {
+        if (teams) return plumescout::lab::MeasureTeams(summary);
         if (!mission.empty()) return plumescout::lab::MeasureMissions(mission, summary);
         return plumescout::lab::Measure(worlds, buildings, summary);
       });
