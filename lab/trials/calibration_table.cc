@@ -70,8 +70,7 @@ void AddCalibration(const std::vector<RowMaps>& rows, Study& study) {
   TextTable table;
   table.title =
       "Do maps know how far off they are? Critical cells that are estimated, against their "
-      "variances: 0.68 within 1 σ, 0.95 within 2 σ and rms z 1 if they do. Means over maps that "
-      "have "
+      "variances: 0.68 within 1 σ, 0.95 within 2 σ and rms z 1 if they do. Means over maps with "
       "such cells; pooled: over all of these cells together";
   table.columns = {"row",        "maps",       "cells", "1 σ holds", "2 σ holds",
                    "1 σ pooled", "2 σ pooled", "rms z", "NLPD, nats"};

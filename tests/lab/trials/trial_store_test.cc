@@ -115,7 +115,7 @@ TEST(TrialStore, FindsNothingOfOtherSettingsOrDamaged) {
   EXPECT_FALSE(store->Find("a-1", "print", kGeometry).has_value());
 }
 
-// They are driven again: half of a study's means would be of other trials than the rest.
+// They are driven again: else means would be of the newer trials alone.
 TEST(TrialStore, FindsNothingFromBeforeItKeptCalibrations) {
   const TempFolder folder;
   const auto store = TrialStore::Open(folder.path());
