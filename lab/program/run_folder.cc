@@ -19,6 +19,8 @@
 #include "lab/program/explorer.h"
 #include "lab/report/number_labels.h"
 #include "lab/report/report.h"
+#include "lab/trials/calibration_table.h"
+#include "lab/trials/map_calibration.h"
 #include "lab/trials/team_picture.h"
 
 namespace plumescout::lab {
@@ -85,6 +87,9 @@ Summary MakeSummary(const Run& run) {
       {"simulated_s", run.team.samples.back().time_s},
       {"wall_s", run.wall_s},
   };
+  AddCalibration(Calibrate(run.world.scene(), run.final_map.gas_mean_ppm,
+                           run.final_map.gas_variance_ppm2, run.world.ambient_ppm()),
+                 "", summary);
   AddTeamFigures(run.team, summary);
   if (run.server_killed_s) summary.figures.emplace_back("server_killed_at_s", *run.server_killed_s);
   summary.about = AboutThisRun(run.seed);

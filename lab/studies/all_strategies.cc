@@ -183,6 +183,7 @@ absl::StatusOr<Study> RunAllStrategies(const ExperimentOptions& options) {
       MakeBars(plan, records, "RMSE / that of an all-zero map", ErrorShare),
       MakeBars(plan, records, "Entropy, nats per critical cell", Entropy_nats)};
   AddNumbers(plan, records, study);
+  AddCalibration(FinalMaps(plan, records), study);
   study.table = MakeTrialTable(plan, records);
   study.summary.about = AboutThisRun(options.seed);
   for (const std::string& scene : plan.scenes) {

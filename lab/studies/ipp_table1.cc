@@ -323,6 +323,7 @@ absl::StatusOr<Study> RunIppTable1(const ExperimentOptions& options) {
   }
   study.figures.charts = MakeCharts(plan, drives);
   PLUMESCOUT_RETURN_IF_ERROR(AddPictures(plan, study.figures));
+  AddCalibration(FinalMaps(plan, drives), study);
   study.table = MakeDriveTable(plan, drives);
   study.summary.about = AboutThisRun(options.seed);
   study.summary.about.emplace_back("quarters", absl::StrCat(plan.worlds.size()));

@@ -143,6 +143,7 @@ absl::StatusOr<Study> RunLhrCalibration(const ExperimentOptions& options) {
   study.figures.key_numbers = {{"Nearest to the paper", Told(chosen, *nearest)},
                                {"Pairs tried", absl::StrCat(pairs.size())}};
   study.figures.tables = {std::move(table)};
+  AddCalibration(FinalMaps(plan, drives), study);
   study.table = MakeDriveTable(plan, drives);
   study.summary.about = AboutThisRun(options.seed);
   study.summary.about.emplace_back("drives", absl::StrCat(plan.cases.size()));

@@ -209,6 +209,7 @@ absl::StatusOr<Study> RunLhrTable2(const ExperimentOptions& options) {
   PLUMESCOUT_ASSIGN_OR_RETURN(const TourCost cost, MeasureTourCost(options.seed));
   study.summary.figures.emplace_back("p2_3003_subsets_ms", cost.subsets_ms);
   study.summary.figures.emplace_back("p1_6x6_ms", cost.survey_ms);
+  AddCalibration(FinalMaps(plan, drives), study);
   study.table = MakeDriveTable(plan, drives);
   study.summary.about = AboutThisRun(options.seed);
   study.summary.about.emplace_back("drives", absl::StrCat(plan.cases.size()));

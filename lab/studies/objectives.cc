@@ -21,6 +21,7 @@
 #include "lab/sim/episode.h"
 #include "lab/sim/scene_world.h"
 #include "lab/studies/objective_truth.h"
+#include "lab/trials/calibration_table.h"
 #include "lab/trials/map_calibration.h"
 #include "lab/trials/statistics.h"
 #include "lab/trials/study.h"
@@ -67,8 +68,8 @@ struct Outcome {
   bool completed = false;
   std::optional<ObjectiveStatus> status = std::nullopt;
   ObjectiveTruth truth = {};  // of a mission with an objective
-  double rmse_ppm = 0.0;      // critical cells; 0 without gas
-  double home_m = 0.0;        // from where it began, at the end
+  MapCalibration calibration = {};
+  double home_m = 0.0;  // from where it began, at the end
 };
 
 Scene WithoutGas(Scene scene) {
@@ -106,11 +107,8 @@ absl::StatusOr<Outcome> Drive(const SceneWorld& world, const Row& row, std::uint
   Outcome outcome{.stopped_s = ran.simulated_s, .completed = ran.completed};
   outcome.status = belief->objective;
   if (belief->objective) outcome.truth = CompareWithTruth(*belief, world.scene());
-  if (!row.clean) {
-    outcome.rmse_ppm =
-        Calibrate(world.scene(), *belief->gas_mean_ppm, *belief->Gas(0).published_variance_ppm2())
-            .rmse_ppm;
-  }
+  outcome.calibration =
+      Calibrate(world.scene(), *belief->gas_mean_ppm, *belief->Gas(0).published_variance_ppm2());
   outcome.home_m = Distance_m(ran.path.front().pose.position(), ran.path.back().pose.position());
   return outcome;
 }
@@ -179,7 +177,8 @@ std::vector<std::string> TableRow(const std::vector<Building>& buildings, std::s
   std::vector<double> shares;
   for (const Building& building : buildings) shares.push_back(TimeShare(building, row));
   const Spread share = SpreadOf(shares);
-  const Spread rmse_ppm = SpreadOf(Of(buildings, row, [](const auto& o) { return o.rmse_ppm; }));
+  const Spread rmse_ppm =
+      SpreadOf(Of(buildings, row, [](const auto& o) { return o.calibration.rmse_ppm; }));
   const Spread cells =
       SpreadOf(Of(buildings, row, [](const auto& o) { return o.truth.right_share; }));
   const bool has_objective = kRows[row].kind != ObjectiveKind::kCompleteMap;
@@ -246,12 +245,26 @@ BarChart MakeTimeChart(const std::vector<Building>& buildings) {
   return chart;
 }
 
+// Of missions where something leaks.
+std::vector<RowMaps> FinalMaps(const std::vector<Building>& buildings) {
+  std::vector<RowMaps> rows;
+  for (std::size_t row = 0; row < kRowCount; ++row) {
+    if (kRows[row].clean) continue;
+    RowMaps& of_row = rows.emplace_back(RowMaps{kRows[row].name, {}});
+    for (const Building& building : buildings) {
+      of_row.maps.push_back(building.rows[row].calibration);
+    }
+  }
+  return rows;
+}
+
 CsvTable MakeCsv(const std::vector<Building>& buildings) {
   CsvTable csv;
   csv.label_columns = {"building", "mission", "explanation"};
   csv.columns = {"stopped_s",         "completed",      "state",    "confidence",
                  "undecided_area_m2", "open_frontiers", "is_right", "right_share",
                  "decided_cells",     "greatest_ppm",   "rmse_ppm", "home_m"};
+  AddCalibrationColumns(csv);
   for (const Building& building : buildings) {
     for (std::size_t row = 0; row < kRowCount; ++row) {
       const Outcome& o = building.rows[row];
@@ -263,7 +276,8 @@ CsvTable MakeCsv(const std::vector<Building>& buildings) {
                           o.status ? static_cast<double>(status.state) : -1.0, status.confidence,
                           status.undecided_area_m2, static_cast<double>(status.open_frontiers),
                           o.truth.is_right ? 1.0 : 0.0, o.truth.right_share, o.truth.decided_cells,
-                          o.truth.greatest_ppm, o.rmse_ppm, o.home_m});
+                          o.truth.greatest_ppm, o.calibration.rmse_ppm, o.home_m});
+      AddCalibration(o.calibration, csv.rows.back());
     }
   }
   return csv;
@@ -294,6 +308,7 @@ absl::StatusOr<Study> RunObjectives(const ExperimentOptions& options) {
       "is "
       "promised of each cell, not of all of them at once."};
   study.figures.tables = {MakeTable(buildings, study.summary)};
+  AddCalibration(FinalMaps(buildings), study);
   study.figures.bar_charts = {MakeTimeChart(buildings)};
   study.table = MakeCsv(buildings);
   study.summary.about = AboutThisRun(options.seed);

@@ -350,6 +350,7 @@ absl::StatusOr<Study> RunOwnStrategy(const ExperimentOptions& options) {
       MakeMetricChart(records, in_one_unit, "Entropy, nats per critical cell", EntropyPerCell_nats),
       MakeMetricChart(records, styles, "Completeness", Completeness)};
   AddNumbers(buildings, study);
+  AddCalibration(FinalMaps(plan, records), study);
   study.table = MakeTrialTable(plan, records);
   study.summary.about = AboutThisRun(options.seed);
   return study;

@@ -134,6 +134,7 @@ absl::StatusOr<Study> RunTeamRivals(const ExperimentOptions& options) {
     study.figures.tables.push_back(SpeedTable(result));
     study.figures.tables.push_back(TrafficTable(result));
     AddNumbers(result, study);
+    AddCalibration(result, study);
     AddRows(result, study.table);
     return absl::OkStatus();
   }));

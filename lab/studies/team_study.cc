@@ -204,6 +204,7 @@ absl::StatusOr<Study> RunTeamStudy(const ExperimentOptions& options) {
         } else {
           AddSize(result, study);
         }
+        AddCalibration(result, study);
         AddRows(result, study.table);
         return absl::OkStatus();
       }));

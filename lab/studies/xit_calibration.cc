@@ -134,6 +134,7 @@ absl::StatusOr<Study> RunXitCalibration(const ExperimentOptions& options) {
   }
   study.figures.charts = {MakeMetricChart(records, styles, "Completeness", Completeness),
                           MakeMetricChart(records, styles, "RMSE, critical cells, ppm", Rmse_ppm)};
+  AddCalibration(FinalMaps(plan, records), study);
   study.table = MakeTrialTable(plan, records);
   study.summary.figures.emplace_back("trials", plan.trials);
   study.summary.about = AboutThisRun(options.seed);

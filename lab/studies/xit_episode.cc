@@ -21,6 +21,8 @@
 #include "lab/report/figures.h"
 #include "lab/report/palette.h"
 #include "lab/sim/scene_maker.h"
+#include "lab/trials/calibration_table.h"
+#include "lab/trials/map_calibration.h"
 #include "lab/worlds/bundled_layouts.h"
 #include "lab/worlds/synthetic_scene.h"
 
@@ -334,6 +336,9 @@ absl::StatusOr<Study> RunXitEpisode(const ExperimentOptions& options) {
   study.table = {{"time_s", "completeness", "rmse_ppm", "rmse_zero_ppm", "entropy_nats"},
                  MetricRows(mission.episode)};
   AddNumbers(mission, exploitation, study);
+  AddCalibration(Calibrate(world.scene(), mission.map.gas_mean_ppm, mission.map.gas_variance_ppm2,
+                           world.ambient_ppm()),
+                 study);
   study.summary.about = AboutThisRun(options.seed);
   return study;
 }

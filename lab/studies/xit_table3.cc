@@ -341,6 +341,7 @@ absl::StatusOr<Study> RunXitTable3(const ExperimentOptions& options) {
                               OracleMetrics(plan, records, kStrongBaseline, nullptr));
   AddNumbers(records, oracles, study);
   AddCompleteness(records, plan.trials, study.summary);
+  AddCalibration(FinalMaps(plan, records), study);
   study.table = MakeTrialTable(plan, records);
   study.summary.about = AboutThisRun(options.seed);
   study.summary.about.emplace_back("trials", absl::StrCat(plan.trials));

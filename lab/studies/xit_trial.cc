@@ -18,6 +18,8 @@
 #include "lab/report/figures.h"
 #include "lab/report/palette.h"
 #include "lab/sim/scene_maker.h"
+#include "lab/trials/calibration_table.h"
+#include "lab/trials/map_calibration.h"
 #include "lab/trials/mission_moments.h"
 #include "lab/worlds/bundled_layouts.h"
 
@@ -370,6 +372,9 @@ absl::StatusOr<Study> RunXitTrial(const ExperimentOptions& options) {
   study.table = {{"time_s", "completeness", "rmse_ppm", "rmse_clean_air_ppm", "entropy_nats"},
                  MetricRows(mission.episode)};
   AddNumbers(mission, world, study);
+  AddCalibration(Calibrate(world.scene(), mission.map.gas_mean_ppm, mission.map.gas_variance_ppm2,
+                           world.ambient_ppm()),
+                 study);
   study.summary.about = AboutThisRun(options.seed);
   return study;
 }

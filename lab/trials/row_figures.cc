@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <string>
 
+#include "absl/strings/str_cat.h"
 #include "core/types/status_macros.h"
 #include "lab/formats/scene_folder.h"
 #include "lab/trials/oracle.h"
@@ -105,12 +106,25 @@ absl::StatusOr<std::vector<MapMetrics>> OracleMetrics(const TrialPlan& plan,
   return oracles;
 }
 
+std::vector<RowMaps> FinalMaps(const TrialPlan& plan, const std::vector<SceneRecords>& records,
+                               const std::string& prefix) {
+  std::vector<RowMaps> rows;
+  for (std::size_t row = 0; row < plan.rows.size(); ++row) {
+    RowMaps& of_row = rows.emplace_back(RowMaps{absl::StrCat(prefix, plan.rows[row].name), {}});
+    for (const SceneRecords& scene : records) {
+      for (const TrialRecord& trial : scene[row]) of_row.maps.push_back(trial.calibration);
+    }
+  }
+  return rows;
+}
+
 CsvTable MakeTrialTable(const TrialPlan& plan, const std::vector<SceneRecords>& records) {
   CsvTable table;
   table.label_columns = {"scene", "row"};
   table.columns = {"seed",           "rmse_ppm",     "rmse_zero_ppm", "entropy_nats",
                    "critical_cells", "completeness", "gas_readings",  "distance_m",
                    "plans",          "collisions",   "completed"};
+  AddCalibrationColumns(table);
   for (std::size_t scene = 0; scene < records.size(); ++scene) {
     for (std::size_t row = 0; row < plan.rows.size(); ++row) {
       for (std::size_t k = 0; k < records[scene][row].size(); ++k) {
@@ -122,6 +136,7 @@ CsvTable MakeTrialTable(const TrialPlan& plan, const std::vector<SceneRecords>& 
                               static_cast<double>(trial.gas_readings), trial.distance_m,
                               static_cast<double>(trial.plans),
                               static_cast<double>(trial.collisions), trial.completed ? 1.0 : 0.0});
+        AddCalibration(trial.calibration, table.rows.back());
       }
     }
   }

@@ -10,6 +10,7 @@
 #include "absl/status/statusor.h"
 #include "lab/formats/csv.h"
 #include "lab/report/chart.h"
+#include "lab/trials/calibration_table.h"
 #include "lab/trials/statistics.h"
 #include "lab/trials/trial_study.h"
 
@@ -49,7 +50,12 @@ absl::StatusOr<std::vector<MapMetrics>> OracleMetrics(const TrialPlan& plan,
                                                       std::size_t row,
                                                       const std::function<void(double)>& progress);
 
-// Every trial: scene and row as labels, then seed, metrics at the end, distance, plans, collisions.
+// The maps that missions end with, by row; PREFIX and the row's name as names.
+std::vector<RowMaps> FinalMaps(const TrialPlan& plan, const std::vector<SceneRecords>& records,
+                               const std::string& prefix = "");
+
+// Every trial: scene and row as labels, then seed, metrics at the end, distance, plans, collisions,
+// calibration.
 CsvTable MakeTrialTable(const TrialPlan& plan, const std::vector<SceneRecords>& records);
 
 }  // namespace plumescout::lab

@@ -305,6 +305,7 @@ CsvTable MakeDriveTable(const SamplingPlan& plan,
   table.label_columns = {"row", "case"};
   table.columns = {"seed",           "distance_m",     "samples",      "elapsed_s",
                    "final_rmse_ppm", "least_rmse_ppm", "least_rmse_s", "convergence_s"};
+  AddCalibrationColumns(table);
   for (std::size_t row = 0; row < drives.size(); ++row) {
     for (std::size_t i = 0; i < drives[row].size(); ++i) {
       const SamplingDrive& drive = drives[row][i];
@@ -315,6 +316,7 @@ CsvTable MakeDriveTable(const SamplingPlan& plan,
                             FinalError(drive.errors).value_or(ErrorPoint{}).rmse_ppm,
                             least.rmse_ppm, least.time_s,
                             ConvergenceTime_s(drive.errors).value_or(drive.elapsed_s)});
+      AddCalibration(drive.calibration, table.rows.back());
     }
   }
   return table;

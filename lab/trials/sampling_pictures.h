@@ -54,7 +54,7 @@ struct NamedDrives {
 std::vector<Chart> MakeErrorCharts(const SamplingPlan& plan, const NamedDrives& reference,
                                    const std::vector<NamedDrives>& rows);
 
-// Every drive: row and case as labels, then seed, distance, samples, times and errors.
+// Every drive: row and case as labels, then seed, distance, samples, times, errors and calibration.
 CsvTable MakeDriveTable(const SamplingPlan& plan,
                         const std::vector<std::vector<SamplingDrive>>& drives);
 

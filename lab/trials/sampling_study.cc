@@ -16,6 +16,7 @@
 #include "formats/file_io.h"
 #include "lab/local/local_planner_client.h"
 #include "lab/sim/scene_world.h"
+#include "lab/trials/calibration_json.h"
 #include "lab/trials/task_pool.h"
 #include "lab/trials/trial_store.h"
 #include "ompl_planners/ompl_planner.h"
@@ -63,6 +64,7 @@ std::optional<SamplingDrive> FindDrive(const std::string& file, const std::strin
     for (const json& point : value.at("errors")) {
       drive.errors.push_back({point.at(0).get<double>(), point.at(1).get<double>()});
     }
+    drive.calibration = CalibrationFrom(value.at("calibration"));
     return drive;
   } catch (const json::exception&) {
     return std::nullopt;
@@ -71,9 +73,13 @@ std::optional<SamplingDrive> FindDrive(const std::string& file, const std::strin
 
 absl::Status KeepDrive(const std::string& file, const std::string& fingerprint,
                        const SamplingDrive& drive) {
-  json value = {{"fingerprint", fingerprint},   {"end", static_cast<int>(drive.end)},
-                {"elapsed_s", drive.elapsed_s}, {"driven_m", drive.driven_m},
-                {"samples", drive.samples},     {"errors", json::array()}};
+  json value = {{"fingerprint", fingerprint},
+                {"end", static_cast<int>(drive.end)},
+                {"elapsed_s", drive.elapsed_s},
+                {"driven_m", drive.driven_m},
+                {"samples", drive.samples},
+                {"errors", json::array()},
+                {"calibration", ToJson(drive.calibration)}};
   value["source_s"] = drive.source_s ? json(*drive.source_s) : json();
   for (const ErrorPoint& point : drive.errors) {
     value["errors"].push_back({point.time_s, point.rmse_ppm});
@@ -100,7 +106,11 @@ absl::StatusOr<SamplingDrive> MakeDrive(const SamplingPlan& plan, std::size_t ro
   const std::string fingerprint =
       FingerprintOf(plan, MissionFor(plan, row, number), plan.cases[number]);
   if (std::optional<SamplingDrive> kept = FindDrive(file, fingerprint)) return *std::move(kept);
-  auto record = RunSamplingCase(plan, row, number);
+  MapSnapshot map;  // the last
+  const SamplingWatch watch{
+      .on_plan = nullptr,
+      .on_map = [&map](const ErrorPoint&, const MapSnapshot& judged) { map = judged; }};
+  auto record = RunSamplingCase(plan, row, number, watch);
   if (!record.ok()) {
     return absl::Status(record.status().code(),
                         absl::StrCat(name, ": ", record.status().message()));
@@ -111,7 +121,8 @@ absl::StatusOr<SamplingDrive> MakeDrive(const SamplingPlan& plan, std::size_t ro
                       record->driven_m,
                       static_cast<int>(record->samples.size()),
                       SourceTime_s(scene, record->samples),
-                      std::move(record->errors)};
+                      std::move(record->errors),
+                      Calibrate(scene, map.gas_mean_ppm, map.gas_variance_ppm2)};
   PLUMESCOUT_RETURN_IF_ERROR(KeepDrive(file, fingerprint, drive));
   return drive;
 }
@@ -135,6 +146,16 @@ std::vector<double> MeansByWorld(const SamplingPlan& plan, const std::vector<Sam
     means.push_back(sum / static_cast<double>(world.size()));
   }
   return means;
+}
+
+std::vector<RowMaps> FinalMaps(const SamplingPlan& plan,
+                               const std::vector<std::vector<SamplingDrive>>& drives) {
+  std::vector<RowMaps> rows;
+  for (std::size_t row = 0; row < drives.size(); ++row) {
+    RowMaps& of_row = rows.emplace_back(RowMaps{plan.rows[row].name, {}});
+    for (const SamplingDrive& drive : drives[row]) of_row.maps.push_back(drive.calibration);
+  }
+  return rows;
 }
 
 absl::StatusOr<SamplingRecord> RunSamplingCase(const SamplingPlan& plan, std::size_t row,

@@ -15,6 +15,8 @@
 #include "lab/formats/scene.h"
 #include "lab/sim/dwell_sensor.h"
 #include "lab/sim/sampling_run.h"
+#include "lab/trials/calibration_table.h"
+#include "lab/trials/map_calibration.h"
 #include "lab/trials/trial_study.h"
 
 namespace plumescout::lab {
@@ -49,6 +51,7 @@ struct SamplingDrive {
   int samples = 0;
   std::optional<double> source_s;  // when the cell of a source was first sampled
   ErrorCurve errors;
+  MapCalibration calibration;  // of the map at the end
 
   friend bool operator==(const SamplingDrive&, const SamplingDrive&) = default;
 };
@@ -65,6 +68,10 @@ std::vector<std::vector<SamplingDrive>> ByWorld(const SamplingPlan& plan,
 // A figure of the drives of one row: its mean in each world that has drives.
 std::vector<double> MeansByWorld(const SamplingPlan& plan, const std::vector<SamplingDrive>& row,
                                  const std::function<double(const SamplingDrive&)>& figure);
+
+// The maps that the drives end with, by row.
+std::vector<RowMaps> FinalMaps(const SamplingPlan& plan,
+                               const std::vector<std::vector<SamplingDrive>>& drives);
 
 // One drive by itself, with everything that happened: for pictures.
 struct SamplingWatch {

@@ -144,6 +144,11 @@ void AddNumbers(const SizeResult& result, Study& study) {
   }
 }
 
+void AddCalibration(const SizeResult& result, Study& study) {
+  AddCalibration(FinalMaps(result.plan, result.records, absl::StrCat(result.size->name, "_")),
+                 study);
+}
+
 void AddRows(const SizeResult& result, CsvTable& table) {
   CsvTable part = MakeTrialTable(result.plan, result.records);
   table.label_columns = part.label_columns;

@@ -27,6 +27,9 @@ TextTable TrafficTable(const SizeResult& result);
 void AddNumbers(const SizeResult& result, Study& study);
 void AddTrafficNumbers(const SizeResult& result, std::size_t row, Study& study);
 
+// Whether the maps know how far off they are; figures are named as above.
+void AddCalibration(const SizeResult& result, Study& study);
+
 // Every trial, after those that are in the table.
 void AddRows(const SizeResult& result, CsvTable& table);
 

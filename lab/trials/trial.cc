@@ -265,6 +265,8 @@ absl::StatusOr<TrialRecord> RunTrial(const Trial& trial) {
   while (record.mean_ppm.size() < trial.map_times_s.size()) {
     record.mean_ppm.push_back(OnSceneGrid(map.gas_mean_ppm, trial.world->scene().geometry()));
   }
+  record.calibration = Calibrate(trial.world->scene(), map.gas_mean_ppm, map.gas_variance_ppm2,
+                                 trial.world->ambient_ppm());
   if (trial.on_end) trial.on_end(team, map);
   PLUMESCOUT_RETURN_IF_ERROR(JudgeOtherwise(trial, options, map, heard, record));
   return record;

@@ -16,6 +16,7 @@
 #include "lab/sim/episode.h"
 #include "lab/sim/metrics.h"
 #include "lab/sim/scene_world.h"
+#include "lab/trials/map_calibration.h"
 #include "lab/trials/other_entropies.h"
 #include "lab/trials/team_watch.h"
 
@@ -78,6 +79,7 @@ struct TrialRecord {
   std::vector<CurvePoint> curve;  // at 0, every 5 s, and at the end
   // At the map times, or at the end if that came before; on the scene's grid; NaN: not estimated.
   std::vector<Grid<float>> mean_ppm;
+  MapCalibration calibration;  // of the mission's own map, at the end
   int gas_readings = 0;
   double distance_m = 0.0;
   int plans = 0;

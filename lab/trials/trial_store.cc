@@ -3,7 +3,6 @@
 #include "lab/trials/trial_store.h"
 
 #include <cstddef>
-#include <limits>
 #include <nlohmann/json.hpp>
 #include <utility>
 #include <vector>
@@ -14,6 +13,7 @@
 #include "formats/crc32c.h"
 #include "formats/file_io.h"
 #include "lab/formats/npy.h"
+#include "lab/trials/calibration_json.h"
 #include "proto/convert/options.h"
 
 namespace plumescout::lab {
@@ -22,11 +22,6 @@ namespace {
 using nlohmann::json;
 
 constexpr std::uint64_t kMaxRecordBytes = 16ULL << 20U;
-
-// JSON has no NaN: such values are null.
-double Number(const json& value) {
-  return value.is_null() ? std::numeric_limits<double>::quiet_NaN() : value.get<double>();
-}
 
 json ToJson(const CurvePoint& point) {
   const MapMetrics& m = point.metrics;
@@ -37,10 +32,10 @@ json ToJson(const CurvePoint& point) {
 CurvePoint CurvePointFrom(const json& value) {
   CurvePoint point;
   point.time_s = value.at(0).get<double>();
-  point.metrics.completeness = Number(value.at(1));
-  point.metrics.rmse_ppm = Number(value.at(2));
-  point.metrics.rmse_zero_ppm = Number(value.at(3));
-  point.metrics.entropy_nats = Number(value.at(4));
+  point.metrics.completeness = NumberFrom(value.at(1));
+  point.metrics.rmse_ppm = NumberFrom(value.at(2));
+  point.metrics.rmse_zero_ppm = NumberFrom(value.at(3));
+  point.metrics.entropy_nats = NumberFrom(value.at(4));
   point.metrics.critical_cells = value.at(5).get<int>();
   return point;
 }
@@ -105,9 +100,10 @@ TrialRecord RecordFrom(const json& value) {
   record.collisions = value.at("collisions").get<int>();
   record.completed = value.at("completed").get<bool>();
   record.team = TeamRecordFrom(value.at("team"));
+  record.calibration = CalibrationFrom(value.at("calibration"));
   if (value.contains("other_entropies_nats")) {
     const json& nats = value.at("other_entropies_nats");
-    record.other_entropies = {Number(nats.at(0)), Number(nats.at(1))};
+    record.other_entropies = {NumberFrom(nats.at(0)), NumberFrom(nats.at(1))};
   }
   if (value.contains("peer_rmse_ppm")) {
     record.peer_rmse_ppm = value.at("peer_rmse_ppm").get<double>();
@@ -172,7 +168,7 @@ absl::Status TrialStore::Keep(const std::string& name, const std::string& finger
                 {"distance_m", record.distance_m}, {"plans", record.plans},
                 {"collisions", record.collisions}, {"completed", record.completed},
                 {"maps", record.mean_ppm.size()},  {"curve", json::array()},
-                {"team", ToJson(record.team)}};
+                {"team", ToJson(record.team)},     {"calibration", ToJson(record.calibration)}};
   if (record.peer_rmse_ppm) value["peer_rmse_ppm"] = *record.peer_rmse_ppm;
   if (record.second_field) {
     value["second_field"] = ToJson(CurvePoint{record.curve.back().time_s, *record.second_field});

@@ -18,15 +18,17 @@ TEST(NumberLabels, FiguresHaveNamesAndUnits) {
                          {"completeness", 0.9871},
                          {"readings_sent", 1023.0},
                          {"rmse_ppm", 0.01234},
+                         {"within_2_sigma", 0.905},
                          {"mission_complete", 1.0},
                          {"closest_m", std::nan("")},
                          {"something_else", 2.5}},
                         {{"build_type", "Release"}, {"other", "text"}}};
-  EXPECT_THAT(LabelledNumbers(summary),
-              ElementsAre(Pair("Plan, CPU, median", "19 ms"), Pair("Map complete", "98.7 %"),
-                          Pair("Gas readings sent", "1023"), Pair("Gas map, RMSE", "0.0123 ppm"),
-                          Pair("Mission complete", "yes"), Pair("something_else", "2.5"),
-                          Pair("Build", "Release"), Pair("other", "text")));
+  EXPECT_THAT(
+      LabelledNumbers(summary),
+      ElementsAre(Pair("Plan, CPU, median", "19 ms"), Pair("Map complete", "98.7 %"),
+                  Pair("Gas readings sent", "1023"), Pair("Gas map, RMSE", "0.0123 ppm"),
+                  Pair("Within 2 σ (95 %)", "90.5 %"), Pair("Mission complete", "yes"),
+                  Pair("something_else", "2.5"), Pair("Build", "Release"), Pair("other", "text")));
 }
 
 }  // namespace number_labels_test

@@ -32,6 +32,7 @@ TEST(AllStrategies, HasEveryStrategyWithTheMapUnknownAndKnown) {
   EXPECT_THAT(study->figures.bar_charts[0].series, SizeIs(2));
   EXPECT_THAT(study->summary.figures, Contains(Pair("plumescout_kernel_dmv_rmse_share", Gt(0.0))));
   EXPECT_THAT(study->summary.figures, Contains(Key("lhr_known_entropy_nats")));
+  EXPECT_THAT(study->summary.figures, Contains(Key("lhr_known_pooled_within_1_sigma")));
 }
 
 }  // namespace all_strategies_test

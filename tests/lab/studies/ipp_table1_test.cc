@@ -26,8 +26,9 @@ TEST(IppTable1, HasTheRowsOfThePaper) {
   options.folder = folder.path();
   const auto study = RunIppTable1(options);
   ASSERT_TRUE(study.ok()) << study.status();
-  ASSERT_THAT(study->figures.tables, SizeIs(2));  // 1 and 3 m/s
-  for (const TextTable& table : study->figures.tables) {
+  ASSERT_THAT(study->figures.tables, SizeIs(3));  // 1 and 3 m/s, and calibration
+  for (std::size_t speed = 0; speed < 2; ++speed) {
+    const TextTable& table = study->figures.tables[speed];
     ASSERT_THAT(table.rows, SizeIs(6));
     for (const auto& row : table.rows) EXPECT_EQ(row.size(), table.columns.size());
     EXPECT_EQ(table.rows[1][7], "N/A");  // [IPP] Table I
@@ -43,7 +44,8 @@ TEST(IppTable1, HasTheRowsOfThePaper) {
                           "concentration_time", "joint_uncertainty_concentration_time"}) {
     for (const std::string speed : {"", "_3mps"}) {
       const std::string name = row + speed;
-      for (const char* figure : {"_final_rmse", "_min_rmse", "_samples", "_resolved"}) {
+      for (const char* figure :
+           {"_final_rmse", "_min_rmse", "_samples", "_resolved", "_within_2_sigma"}) {
         ASSERT_THAT(figures, Contains(Key(name + figure)));
       }
       // What no drive came to was not measured.

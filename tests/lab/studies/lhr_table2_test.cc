@@ -40,7 +40,7 @@ TEST(LhrTable2, HasTheRowsOfThePaperAndSamplesEverySite) {
   EXPECT_THAT(study->figures.panels, SizeIs(6));  // the truth and five updates
   for (const char* row :
        {"sweep", "crs", "lhr_mean", "lhr_ucb", "lhr_mean_no_survey", "lhr_ucb_no_survey"}) {
-    for (const char* figure : {"_distance_m", "_rmse_ct_min"}) {
+    for (const char* figure : {"_distance_m", "_rmse_ct_min", "_within_2_sigma"}) {
       EXPECT_THAT(study->summary.figures, Contains(Key(std::string(row) + figure)));
     }
   }

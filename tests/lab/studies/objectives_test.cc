@@ -19,7 +19,7 @@ TEST(Objectives, TellsOfEveryMissionWhenItStopsAndWhetherItIsRight) {
   const TempFolder folder;
   const auto study = RunObjectives(SmallStudy(folder));
   ASSERT_TRUE(study.ok()) << study.status();
-  ASSERT_THAT(study->figures.tables, SizeIs(1));
+  ASSERT_THAT(study->figures.tables, SizeIs(2));  // and calibration
   EXPECT_THAT(study->figures.tables[0].rows, SizeIs(8));
   for (const auto& row : study->figures.tables[0].rows) {
     EXPECT_EQ(row.size(), study->figures.tables[0].columns.size());
@@ -29,6 +29,8 @@ TEST(Objectives, TellsOfEveryMissionWhenItStopsAndWhetherItIsRight) {
               Contains(std::pair<std::string, double>("complete_map_time_share", 1.0)));
   EXPECT_THAT(study->summary.figures, Contains(Key("confirm_clean_right")));
   EXPECT_THAT(study->summary.figures, Contains(Key("deadline_home")));
+  EXPECT_THAT(study->summary.figures, Contains(Key("deadline_within_2_sigma")));
+  EXPECT_THAT(study->figures.tables[1].rows, SizeIs(5)) << "where something leaks";
 }
 
 }  // namespace objectives_test

@@ -19,9 +19,10 @@ TEST(OwnStrategy, ComparesAllContestantsWithTheOracle) {
   const TempFolder folder;
   const auto study = RunOwnStrategy(SmallStudy(folder));
   ASSERT_TRUE(study.ok()) << study.status();
-  ASSERT_THAT(study->figures.tables, SizeIs(2));
+  ASSERT_THAT(study->figures.tables, SizeIs(3));
   EXPECT_THAT(study->figures.tables[0].rows, SizeIs(7));  // six rows and the oracle
   EXPECT_THAT(study->figures.tables[1].rows, SizeIs(1));  // one building
+  EXPECT_THAT(study->figures.tables[2].rows, SizeIs(6));  // calibration
   for (const TextTable& table : study->figures.tables) {
     for (const auto& row : table.rows) EXPECT_EQ(row.size(), table.columns.size());
   }
@@ -29,8 +30,9 @@ TEST(OwnStrategy, ComparesAllContestantsWithTheOracle) {
   for (const char* figure :
        {"plumescout_entropy_oracle_share", "plumescout_rmse_oracle_share_low",
         "plumescout_rmse_oracle_share_high", "plumescout_default_rmse_oracle_share",
-        "plumescout_default_rmse_best_share", "plumescout_default_worst_rmse_share",
-        "plumescout_default_against_plumescout_rmse_p", "plumescout_against_xit_gff_rmse_p"}) {
+        "plumescout_default_rmse_best_share", "plumescout_default_within_2_sigma",
+        "plumescout_default_worst_rmse_share", "plumescout_default_against_plumescout_rmse_p",
+        "plumescout_against_xit_gff_rmse_p"}) {
     EXPECT_THAT(study->summary.figures, Contains(Key(figure)));
   }
   EXPECT_THAT(study->summary.figures,

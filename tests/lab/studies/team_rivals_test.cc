@@ -21,9 +21,10 @@ TEST(TeamRivals, EveryRuleIsBesideOurs) {
   const TempFolder folder;
   const auto study = RunTeamRivals(SmallStudy(folder));
   ASSERT_TRUE(study.ok()) << study.status();
-  ASSERT_THAT(study->figures.tables, SizeIs(2));
+  ASSERT_THAT(study->figures.tables, SizeIs(3));
   EXPECT_THAT(study->figures.tables[0].rows, SizeIs(7));  // one robot, and two by six rules
   EXPECT_THAT(study->figures.tables[1].rows, SizeIs(6));
+  EXPECT_THAT(study->figures.tables[2].rows, SizeIs(7));  // calibration
   EXPECT_THAT(study->table.rows, SizeIs(7));
   for (const char* row :
        {"k2", "k2_own_prices", "k2_own_ways", "k2_burgard", "k2_matching", "k2_rrt"}) {

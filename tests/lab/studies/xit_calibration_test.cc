@@ -19,7 +19,7 @@ TEST(XitCalibration, ShowsTheBaselineAloneByRange) {
   const TempFolder folder;
   const auto study = RunXitCalibration(SmallStudy(folder));
   ASSERT_TRUE(study.ok()) << study.status();
-  ASSERT_THAT(study->figures.tables, SizeIs(1));
+  ASSERT_THAT(study->figures.tables, SizeIs(2));  // and calibration
   const TextTable& table = study->figures.tables.front();
   EXPECT_THAT(table.rows, SizeIs(6));
   for (const auto& row : table.rows) EXPECT_EQ(row.size(), table.columns.size());

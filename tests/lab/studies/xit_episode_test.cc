@@ -5,6 +5,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "tests/lab/studies/study_figures.h"
+
 namespace plumescout::lab {
 namespace xit_episode_test {
 
@@ -78,6 +80,7 @@ TEST(XitEpisode, DrawsAMissionWithItsCurves) {
   ASSERT_GE(rows.size(), 12u);  // 60 s by 5 s
   EXPECT_GT(rows.back()[1], rows.front()[1]) << "the map grew";
   EXPECT_LT(rows.back()[2], rows.back()[3]) << "it knows more of the gas than nothing";
+  EXPECT_GT(FigureOf(*study, "within_2_sigma"), 0.0);
 }
 
 }  // namespace xit_episode_test

@@ -36,6 +36,7 @@ TEST(XitTrial, TheRobotStopsToSample) {
 TEST(XitTrial, ReadsGasOverTheAmbientAir) {
   EXPECT_GT(Figure("highest_estimate_ppm"), 600.0);
   EXPECT_LT(Figure("rmse_ppm"), Figure("rmse_clean_air_ppm"));
+  EXPECT_GT(Figure("within_2_sigma"), 0.0) << "of ambient air and gas";
 }
 
 TEST(XitTrial, ItsPageSetsThePapersFiguresBeside) {

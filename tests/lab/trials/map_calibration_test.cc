@@ -38,6 +38,7 @@ TEST(MapCalibrationTest, IsTakenOverCriticalCells) {
   EXPECT_EQ(map.within_1_sigma, 0.5);
   EXPECT_EQ(map.within_2_sigma, 1.0);
   EXPECT_NEAR(map.rms_z, std::sqrt((9.0 + 1.0) / 4.0 / 2.0), 1e-9);
+  EXPECT_EQ(map.estimated_cells, 2);
 }
 
 TEST(MapCalibrationTest, WhatIsNotEstimatedIsCleanAirAndHasNoSigma) {
@@ -48,6 +49,37 @@ TEST(MapCalibrationTest, WhatIsNotEstimatedIsCleanAirAndHasNoSigma) {
   EXPECT_NEAR(map.log_rmse_all, std::sqrt(std::pow(std::log(11.0 / 2.0), 2.0) / 2.0), 1e-6);
   EXPECT_EQ(map.within_1_sigma, 1.0);
   EXPECT_EQ(map.rms_z, 0.0);
+  EXPECT_EQ(map.estimated_cells, 1);
+}
+
+TEST(MapCalibrationTest, AmbientAirIsPartOfTheTruthAndOfNoCriticalCell) {
+  Grid<float> mean_ppm(kThree, 412.0F);
+  mean_ppm[1] = std::numeric_limits<float>::quiet_NaN();
+  const MapCalibration map = Calibrate(Truth(), mean_ppm, Grid<float>(kThree, 1.0F), 400.0);
+  EXPECT_NEAR(map.rmse_ppm, std::sqrt((4.0 + 100.0) / 2.0), 1e-9);
+  EXPECT_NEAR(map.rms_z, 2.0, 1e-9);
+  EXPECT_EQ(map.estimated_cells, 1);
+}
+
+TEST(MapCalibrationTest, WithoutVarianceOrGasNothingIsPromised) {
+  constexpr float kNone = std::numeric_limits<float>::quiet_NaN();
+  const Grid<float> mean_ppm(kThree, 13.0F);
+  Scene clean = Truth();
+  clean.conc_mean_ppm = Grid<float>(kThree, 0.0F);
+  for (const MapCalibration& map : {Calibrate(Truth(), mean_ppm, Grid<float>(kThree, kNone)),
+                                    Calibrate(Truth(), mean_ppm, Grid<float>(kThree, 0.0F)),
+                                    Calibrate(clean, mean_ppm, Grid<float>(kThree, 4.0F))}) {
+    EXPECT_EQ(map.estimated_cells, 0);
+    for (const CalibrationFigure& figure : kSigmaFigures) {
+      EXPECT_TRUE(std::isnan(map.*figure.value)) << figure.name;
+    }
+  }
+}
+
+TEST(MapCalibrationTest, SigmaFiguresAreTheFour) {
+  ASSERT_EQ(kSigmaFigures.size(), 4u);
+  EXPECT_STREQ(kSigmaFigures.front().name, "nlpd_nats");
+  EXPECT_STREQ(kSigmaFigures.back().name, "rms_z");
 }
 
 }  // namespace map_calibration_test

@@ -88,16 +88,32 @@ TEST(RowFigures, CompletenessIsShownFromZeroToOne) {
   EXPECT_FALSE(MakeMetricChart(Records(), {{"a", kInk, true}}, "RMSE", Rmse_ppm).y_range);
 }
 
+TEST(RowFigures, FinalMapsAreThoseOfAllBuildings) {
+  TrialPlan plan;
+  plan.rows = {{"a", {}}, {"b", {}}};
+  std::vector<SceneRecords> records = Records();
+  records[1][1][0].calibration.rms_z = 1.5;
+  const std::vector<RowMaps> rows = FinalMaps(plan, records, "small_");
+  ASSERT_THAT(rows, SizeIs(2));
+  EXPECT_EQ(rows[1].name, "small_b");
+  ASSERT_THAT(rows[1].maps, SizeIs(4));
+  EXPECT_EQ(rows[1].maps[2].rms_z, 1.5);
+}
+
 TEST(RowFigures, TheTableHasEveryTrial) {
   TrialPlan plan;
   plan.rows = {{"a", {}}, {"b", {}}};
   plan.scenes = {"x/hall", "x/yard"};
   plan.first_seed = 7;
-  const CsvTable table = MakeTrialTable(plan, Records());
+  std::vector<SceneRecords> records = Records();
+  records[0][1][1].calibration.rms_z = 1.5;
+  const CsvTable table = MakeTrialTable(plan, records);
   ASSERT_THAT(table.rows, SizeIs(8));
   EXPECT_THAT(table.labels[3], ElementsAre("hall", "b"));
   EXPECT_EQ(table.rows[3][0], 8.0);  // the second trial's seed
   EXPECT_EQ(table.rows[3][1], 1.0);
+  EXPECT_EQ(table.columns.back(), "rms_z");
+  EXPECT_EQ(table.rows[3].back(), 1.5);
   EXPECT_THAT(table.labels[4], ElementsAre("yard", "a"));
   for (const auto& row : table.rows) EXPECT_EQ(row.size(), table.columns.size());
 }

@@ -29,6 +29,8 @@ TEST(SamplingStudy, DrivesEveryRowThroughEveryCase) {
       EXPECT_EQ(drive.end, SamplingEnd::kMissionComplete);
       EXPECT_EQ(drive.samples, kSites);
       EXPECT_LT(drive.errors.back().rmse_ppm, 0.5 * drive.errors.front().rmse_ppm);
+      EXPECT_EQ(drive.calibration.estimated_cells, 5) << "those with gas";
+      EXPECT_GT(drive.calibration.rms_z, 0.0);
     }
   }
   EXPECT_LT((*drives)[0][0].driven_m, (*drives)[1][0].driven_m) << "a sweep is the shorter way";
@@ -42,6 +44,7 @@ TEST(SamplingStudy, DoesNotDependOnTheNumberOfJobs) {
   const auto three = RunSamplingStudy(plan);
   ASSERT_TRUE(one.ok() && three.ok());
   EXPECT_EQ(*one, *three);
+  EXPECT_EQ(RunSamplingStudy(plan).value(), *three) << "read again";
 }
 
 TEST(SamplingStudy, GoesOnFromWhatItFindsAndTellsSettingsApart) {
@@ -81,6 +84,18 @@ TEST(SamplingStudy, TellsWhenTheSourceWasSampled) {
   ASSERT_TRUE(none.ok());
   EXPECT_EQ((*none)[0][0].source_s, std::nullopt);
   EXPECT_EQ(RunSamplingStudy(elsewhere).value(), *none) << "read again";
+}
+
+TEST(SamplingStudy, FinalMapsAreThoseOfRows) {
+  SamplingPlan plan;
+  plan.rows = {{"a", {}}, {"b", {}}};
+  std::vector<std::vector<SamplingDrive>> drives(2, std::vector<SamplingDrive>(3));
+  drives[1][2].calibration.rms_z = 1.5;
+  const std::vector<RowMaps> rows = FinalMaps(plan, drives);
+  ASSERT_EQ(rows.size(), 2u);
+  EXPECT_EQ(rows[1].name, "b");
+  ASSERT_EQ(rows[1].maps.size(), 3u);
+  EXPECT_EQ(rows[1].maps[2].rms_z, 1.5);
 }
 
 TEST(SamplingStudy, MeansAreThoseOfWorlds) {

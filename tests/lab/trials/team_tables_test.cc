@@ -80,6 +80,17 @@ TEST(TeamTables, NumbersAreNamedBySizeAndRow) {
       << "nobody came near";
 }
 
+TEST(TeamTables, CalibrationIsNamedBySizeAndRow) {
+  SizeResult result = OneAndTwo();
+  result.plan.rows = {{"k1", {}}, {"k2", {}}};
+  result.records[0][1][0].calibration.within_2_sigma = 0.5;
+  result.records[0][1][0].calibration.estimated_cells = 4;
+  Study study;
+  AddCalibration(result, study);
+  EXPECT_THAT(study.summary.figures, AllOf(Contains(Pair("given_k2_within_2_sigma", 0.5)),
+                                           Contains(Key("given_k1_within_2_sigma"))));
+}
+
 TEST(TeamTables, PercentHasOneDecimal) { EXPECT_EQ(Percent(0.1234), "12.3 %"); }
 
 }  // namespace team_tables_test

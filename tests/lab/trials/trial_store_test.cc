@@ -7,6 +7,7 @@
 
 #include <cmath>
 #include <limits>
+#include <nlohmann/json.hpp>
 
 #include "formats/file_io.h"
 #include "tests/lab/sim/small_scene.h"
@@ -25,6 +26,7 @@ TrialRecord SomeRecord() {
   record.curve.push_back({5.0, {0.1 + 0.2, 12.5, 40.0, -3.25, 7}});
   record.mean_ppm.emplace_back(kGeometry, 1.5F);
   record.mean_ppm[0][0] = std::numeric_limits<float>::quiet_NaN();
+  record.calibration = {1.5, 0.5, 0.25, std::nan(""), 0.1 + 0.2, 0.9, 1.25, 70};
   record.gas_readings = 11;
   record.distance_m = 1.0 / 3.0;
   record.plans = 4;
@@ -61,6 +63,10 @@ TEST(TrialStore, GivesBackWhatItKept) {
   EXPECT_EQ(found->curve[1].metrics.completeness, 0.1 + 0.2);
   EXPECT_EQ(found->curve[1].metrics.entropy_nats, -3.25);
   EXPECT_EQ(found->curve[1].metrics.critical_cells, 7);
+  EXPECT_TRUE(std::isnan(found->calibration.nlpd_nats));
+  EXPECT_EQ(found->calibration.within_1_sigma, 0.1 + 0.2);
+  EXPECT_EQ(found->calibration.rms_z, 1.25);
+  EXPECT_EQ(found->calibration.estimated_cells, 70);
   EXPECT_EQ(found->distance_m, kept.distance_m);
   EXPECT_EQ(found->gas_readings, 11);
   EXPECT_EQ(found->plans, 4);
@@ -106,6 +112,19 @@ TEST(TrialStore, FindsNothingOfOtherSettingsOrDamaged) {
   ASSERT_TRUE(WriteFile(folder.File("a-1.json"), "{\"fingerprint\": \"print\"").ok());
   EXPECT_FALSE(store->Find("a-1", "print", kGeometry).has_value());
   ASSERT_TRUE(WriteFile(folder.File("a-1.json"), "{\"fingerprint\": \"print\"}").ok());
+  EXPECT_FALSE(store->Find("a-1", "print", kGeometry).has_value());
+}
+
+// They are driven again: else means would be of the newer trials alone.
+TEST(TrialStore, FindsNothingFromBeforeItKeptCalibrations) {
+  const TempFolder folder;
+  const auto store = TrialStore::Open(folder.path());
+  ASSERT_TRUE(store.ok());
+  ASSERT_TRUE(store->Keep("a-1", "print", SomeRecord()).ok());
+  constexpr std::uint64_t kMaxBytes = 1 << 20;
+  auto value = nlohmann::json::parse(ReadFile(folder.File("a-1.json"), kMaxBytes).value());
+  ASSERT_EQ(value.erase("calibration"), 1u);
+  ASSERT_TRUE(WriteFile(folder.File("a-1.json"), value.dump()).ok());
   EXPECT_FALSE(store->Find("a-1", "print", kGeometry).has_value());
 }
 

@@ -36,6 +36,11 @@ TEST(Trial, RecordsMetricsMapsAndReadings) {
   ASSERT_EQ(record->curve.size(), 4u);  // 0, 5, 10 s and the end
   EXPECT_LT(record->curve.back().metrics.rmse_ppm, record->curve.front().metrics.rmse_ppm);
   EXPECT_GT(record->curve.back().metrics.completeness, 0.9);
+  EXPECT_NEAR(record->calibration.rmse_ppm, record->curve.back().metrics.rmse_ppm, 0.01);
+  EXPECT_GT(record->calibration.estimated_cells, 0);
+  EXPECT_LE(record->calibration.estimated_cells, record->curve.back().metrics.critical_cells);
+  EXPECT_GT(record->calibration.within_2_sigma, record->calibration.within_1_sigma);
+  EXPECT_GT(record->calibration.rms_z, 0.0);
   EXPECT_EQ(record->gas_readings, 24);  // 2 Hz
   ASSERT_EQ(record->mean_ppm.size(), 2u);
   EXPECT_EQ(record->mean_ppm[0].geometry(), world.scene().geometry());
