@@ -154,6 +154,7 @@ void Visit(OneOf<MissionOptions> auto& options, auto& field) {
   field("memory_budget_bytes", options.memory_budget_bytes);
   field("stamp_by_arrival", options.stamp_by_arrival);
   field("keep_scans", options.keep_scans);
+  field("misleading_move_m", options.misleading_move_m);
   field("seed", options.seed);
 }
 
@@ -298,6 +299,7 @@ absl::StatusOr<MissionOptions> FromProto(const v1::MissionOptions& proto,
 MissionOptions RecordedDefaults() {
   MissionOptions options;
   options.keep_scans = false;
+  options.misleading_move_m = 0.0;
   options.occupancy = PublishedOccupancyOptions();
   options.gas = PublishedGasOptions();
   options.gas.estimate_noise = false;

@@ -68,6 +68,12 @@ TEST(ObjectiveOptions, AllButACompleteMapNeedAThreshold) {
   EXPECT_TRUE(Validate(options).ok());
 }
 
+TEST(MissionOptionsTest, RefuseValuesOutsideTheirRanges) {
+  ExpectRefused<MissionOptions>({
+      {"misleading_move_m", &MissionOptions::misleading_move_m, {-0.1, 10.1}},
+  });
+}
+
 TEST(OccupancyOptions, RefuseValuesOutsideTheirRanges) {
   ExpectRefused<OccupancyOptions>({
       {"resolution_m", &OccupancyOptions::resolution_m, {0.0, -0.1, 50.1}},
