@@ -260,6 +260,9 @@ struct MissionOptions {
   // A robot that tells of less than this of a full battery is sent home, until it has 0.1 more than
   // this, or is full; [0, 1]; 0: none is.
   double return_home_below_battery_share = 0.0;
+  // A pose farther than 5 m, and what the robot drives at this speed since, from its last one is
+  // refused; [0, 1000]; 0: none is. Whoever registers again, or corrects its poses, begins anew.
+  double max_robot_speed_mps = 20.0;
   // What the mission may come to hold, as reckoned by core/mission/memory_estimate.h;
   // [33554432 (32 MiB), 1e12]. Near it the gas lattice becomes coarser; what would go beyond is
   // refused with BUDGET_REACHED, and the map stays as it is.

@@ -71,6 +71,7 @@ TEST(ObjectiveOptions, AllButACompleteMapNeedAThreshold) {
 TEST(MissionOptionsTest, RefuseValuesOutsideTheirRanges) {
   ExpectRefused<MissionOptions>({
       {"misleading_move_m", &MissionOptions::misleading_move_m, {-0.1, 10.1}},
+      {"max_robot_speed_mps", &MissionOptions::max_robot_speed_mps, {-1.0, 1001.0}},
   });
 }
 

@@ -78,6 +78,7 @@ MissionOptions Unlike() {
   options.stamp_by_arrival = true;
   options.keep_scans = false;
   options.misleading_move_m = 0.25;
+  options.max_robot_speed_mps = 7.5;
   options.gas.audit_period_epochs = 7;
   options.gas.scale = GasScale::kSquareRoot;
   options.gas.estimate_noise = false;
@@ -110,6 +111,7 @@ TEST(OptionsTest, OptionsSurviveTheRoundTrip) {
   EXPECT_TRUE(back->stamp_by_arrival);
   EXPECT_FALSE(back->keep_scans);
   EXPECT_EQ(back->misleading_move_m, 0.25);
+  EXPECT_EQ(back->max_robot_speed_mps, 7.5);
   EXPECT_EQ(back->gas.audit_period_epochs, 7);
   EXPECT_EQ(back->gas.scale, GasScale::kSquareRoot);
   EXPECT_FALSE(back->gas.estimate_noise);
@@ -309,6 +311,14 @@ TEST(OptionsTest, JournalsThatDoNotNameMisleadingMovesWereMisledByAny) {
   };
   EXPECT_EQ(of(v1::MissionOptions()), 0.0);
   EXPECT_EQ(of(ToProto(MissionOptions())), MissionOptions().misleading_move_m);
+}
+
+TEST(OptionsTest, JournalsThatDoNotNameASpeedTookPosesFromAnywhere) {
+  const auto of = [](const v1::MissionOptions& proto) {
+    return FromProto(proto, RecordedDefaults(), "options")->max_robot_speed_mps;
+  };
+  EXPECT_EQ(of(v1::MissionOptions()), 0.0);
+  EXPECT_EQ(of(ToProto(MissionOptions())), MissionOptions().max_robot_speed_mps);
 }
 
 TEST(OptionsTest, JournalsThatDoNotNameTheNoiseOfMapsDidNotEstimateIt) {
