@@ -78,6 +78,8 @@ struct RobotRecord {
   std::int64_t wanted_since_ns = 0;
   // How far along its live plan its poses have told that it is, in the plan's time.
   double live_gone_s = 0.0;
+  // When its latest pose was taken, in sample time; 0: not known, or of before it registered last.
+  std::int64_t pose_ns = 0;
 };
 
 // Whether home is where it drives, whatever it asks for.

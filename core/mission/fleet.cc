@@ -96,6 +96,7 @@ absl::Status Fleet::Register(const RobotRegistered& registration, int max_robot_
     EndPlan(member);
     WantNothing(member.record);
   }
+  member.record.pose_ns = 0;
   member.record.state.frame = registration.frame;
   member.sensors = registration.sensors;
   for (const GasSensor& sensor : member.sensors) {
@@ -212,6 +213,7 @@ void Fleet::Advance(const RobotId& robot, const Observation& observation, bool r
     state.pose = plumescout::InMission(state.frame, observation.pose);
     state.pose.yaw_rad = WrapAngle_rad(state.pose.yaw_rad);
     state.has_pose = true;
+    member.record.pose_ns = time_ns;
     GoOn(member.record);
     if (std::holds_alternative<PoseCorrection>(observation.payload)) {
       member.odometer.GoOnFrom(state.pose.position());

@@ -61,6 +61,9 @@ class Fleet {
   // Where its first observation was taken, and when; none before there is one. REQUIRES:
   // Knows(robot).
   std::optional<WayPoint> StartOf(const RobotId& robot) const;
+  // Where it was last, and when; none before it has told since it registered. REQUIRES:
+  // Knows(robot).
+  std::optional<WayPoint> LatestOf(const RobotId& robot) const;
   // That was elsewhere. REQUIRES: StartOf(robot).
   void MoveStart(const RobotId& robot, Point2 place) {
     robots_.at(robot).record.first_place = place;

@@ -31,6 +31,12 @@ std::optional<WayPoint> Fleet::StartOf(const RobotId& robot) const {
                   {member.record.first_place->x_m, member.record.first_place->y_m, 0.0}};
 }
 
+std::optional<WayPoint> Fleet::LatestOf(const RobotId& robot) const {
+  const RobotRecord& record = robots_.at(robot).record;
+  if (!record.state.has_pose || record.pose_ns == 0) return std::nullopt;
+  return WayPoint{record.pose_ns, record.state.pose};
+}
+
 absl::Status Fleet::NoteClock(const ClockOffsetNoted& noted) {
   Member* const member = Find(noted.robot);
   if (member == nullptr) return NotRegistered(noted.robot);

@@ -13,13 +13,16 @@ namespace plumescout {
 void Visit(auto& archive, ConstOr<RobotRecord> auto& record) {
   auto& [state, plans_issued, fruitless_fallbacks, first_place, travelled_m, last_plan,
          live_trajectory, live_goal, live_arrival_ns, battery_low, heard_ns, assigned_plan,
-         wanted_goal, wanted_since_ns, live_gone_s] = record;
+         wanted_goal, wanted_since_ns, live_gone_s, pose_ns] = record;
   archive(state, plans_issued, fruitless_fallbacks, first_place, travelled_m, last_plan,
           live_trajectory, live_goal, live_arrival_ns);
   // heard_ns is of the fleet
   archive.Since(2, battery_low, assigned_plan, wanted_goal, wanted_since_ns);
-  // It follows from the poses; missions of before have the hash that they had.
-  if constexpr (!std::decay_t<decltype(archive)>::kHashes) archive.Since(3, live_gone_s);
+  // They follow from the poses; missions of before have the hash that they had.
+  if constexpr (!std::decay_t<decltype(archive)>::kHashes) {
+    archive.Since(3, live_gone_s);
+    archive.Since(5, pose_ns);
+  }
 }
 
 template <typename Archive, typename Self>

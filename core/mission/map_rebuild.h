@@ -21,6 +21,13 @@ struct PlacedScan {
   std::shared_ptr<const PackedScan> scan;
 };
 
+// What is known to be wrong with a map until it is rebuilt. While it misleads, nobody is judged by
+// it. Missions are saved with these numbers: before there was a slight fault, any misled.
+enum class MapFault : std::uint8_t { kNone = 0, kMisleads = 1, kSlight = 2 };
+constexpr bool IsOne(MapFault fault) {
+  return fault == MapFault::kNone || fault == MapFault::kMisleads || fault == MapFault::kSlight;
+}
+
 // What a rebuild starts from: a mission at one moment.
 struct RebuildInputs {
   std::int64_t time_ns = 0;       // of samples
@@ -28,6 +35,7 @@ struct RebuildInputs {
   OccupancyGrid base;             // the known map, and scans that are kept no more
   std::vector<PlacedScan> scans;  // in the order in which they came
   StopFn stop;
+  MapFault fault = MapFault::kMisleads;  // of the map that it is to replace
 };
 
 // Inserts them, until `stop`, which is asked before each. A scan that the grid has no room for is
@@ -45,6 +53,7 @@ class MapRebuild {
   void Recompute();
   bool done() const { return done_; }
 
+  MapFault fault() const { return inputs_.fault; }
   std::int64_t time_ns() const { return inputs_.time_ns; }
   std::int64_t last_number() const { return inputs_.last_number; }
   // When it is adopted, in sample time: a fixed time for what there is to do, so that events do not

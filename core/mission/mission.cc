@@ -134,6 +134,11 @@ absl::Status Mission::TakeIn(const RobotId& robot, const Observation& observatio
       CheckObservation(observation, *options_, sample_time_ns_, clock_offset_ns));
   const Pose2 pose = fleet_.InMission(robot, observation.pose);
   PLUMESCOUT_RETURN_IF_ERROR(CheckPlace(pose, options_->pose_limit_m));
+  const bool corrects = std::holds_alternative<PoseCorrection>(observation.payload);
+  if (const std::optional<WayPoint> latest = fleet_.LatestOf(robot);
+      latest && SaysWhere(observation) && !corrects) {
+    PLUMESCOUT_RETURN_IF_ERROR(CheckStep(*latest, {time_ns, pose}, options_->max_robot_speed_mps));
+  }
   const bool says_when = SaysWhen(observation);
   if (says_when || progress_.began_ns) fleet_.Hear(robot, std::max(sample_time_ns_, time_ns));
   if (SaysWhere(observation)) NotePose(robot, time_ns, pose);

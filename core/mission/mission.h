@@ -136,7 +136,7 @@ class Mission {
   // Not at once after another, so that corrections that come one after the other do not keep the
   // history from being trimmed or the mission from being saved.
   bool rebuild_due() const {
-    return rebuild_wanted_ && rebuild_ == nullptr &&
+    return map_fault_ != MapFault::kNone && rebuild_ == nullptr &&
            sample_time_ns_ - rebuilt_ns_ >= kRebuildPause_ns;
   }
   std::shared_ptr<MapRebuild> rebuild() const { return rebuild_; }  // under way, or null
@@ -287,9 +287,9 @@ class Mission {
   std::map<RobotId, std::vector<WayReadings>> lagging_;  // by sensor, of robots with such that lag
   WayHistory history_;
   JumpWatch jump_watch_;
-  bool rebuild_wanted_ = false;
-  std::int64_t rebuilt_ns_ = 0;          // sample time at which a rebuilt map was last adopted
-  std::shared_ptr<MapRebuild> rebuild_;  // under way, or null
+  MapFault map_fault_ = MapFault::kNone;  // of which no rebuild is under way
+  std::int64_t rebuilt_ns_ = 0;           // sample time at which a rebuilt map was last adopted
+  std::shared_ptr<MapRebuild> rebuild_;   // under way, or null
   // With its objective.
   struct Progress {
     ObjectiveStatus status;

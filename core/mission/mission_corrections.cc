@@ -50,12 +50,17 @@ absl::Status Mission::TakeCorrection(const RobotId& robot, const Observation& ob
       jump_watch_.IsSuspect(robot) ? jump_watch_.DoubtfulFrom(robot) : history_.next_number();
   std::optional<WayPoint> start = fleet_.StartOf(robot);
   PLUMESCOUT_ASSIGN_OR_RETURN(
-      const bool covers_doubt,
+      const WayHistory::Corrected made,
       history_.Correct(robot, time_ns, anchors, doubtful_from, start ? &*start : nullptr));
   if (start) fleet_.MoveStart(robot, start->pose.position());
-  if (covers_doubt || !jump_watch_.IsSuspect(robot)) TrustAgain(robot);
+  const bool misled = made.moved_m >= options_->misleading_move_m;
+  if (made.covers_doubt || (misled && !jump_watch_.IsSuspect(robot))) TrustAgain(robot);
   PlaceReadingsAgain();
-  rebuild_wanted_ = true;
+  if (misled) {
+    map_fault_ = MapFault::kMisleads;
+  } else if (map_fault_ == MapFault::kNone) {
+    map_fault_ = MapFault::kSlight;
+  }
   return absl::OkStatus();
 }
 
@@ -95,11 +100,14 @@ std::vector<SensorOffsets> Mission::Sensors(const std::vector<WayHistory::Heard>
   return sensors;
 }
 
-// While the map is known to be wrong nobody is judged by it.
+// By a map that is known to be wrong nobody is judged, but by one that is a little out: a robot
+// that corrects its poses each second has it rebuilt all the time.
 bool Mission::IsInDoubt(const RobotId& robot, std::int64_t time_ns, const Pose2& pose,
                         const Scan& scan, const std::vector<MaskDisc>& masks, bool& turned) {
   if (!history_.keeps()) return false;
-  if (rebuild_wanted_ || rebuild_ != nullptr) return jump_watch_.IsSuspect(robot);
+  const bool misleads = map_fault_ == MapFault::kMisleads ||
+                        (rebuild_ != nullptr && rebuild_->fault() == MapFault::kMisleads);
+  if (misleads) return jump_watch_.IsSuspect(robot);
   const JumpVerdict verdict = jump_watch_.Note(robot, history_.next_number(), time_ns,
                                                FitOf(pose, scan, masks, occupancy_));
   switch (verdict) {
@@ -117,7 +125,7 @@ bool Mission::IsInDoubt(const RobotId& robot, std::int64_t time_ns, const Pose2&
   fleet_.Suspect(robot, true);
   history_.Quarantine(robot, jump_watch_.DoubtfulFrom(robot));
   PlaceReadingsAgain();
-  rebuild_wanted_ = true;
+  map_fault_ = MapFault::kMisleads;
   return true;
 }
 
@@ -126,7 +134,7 @@ void Mission::TrimHistory() {
   const std::int64_t budget_bytes = options_->memory_budget_bytes;
   history_.Trim(std::min(budget_bytes / kHistoryShare, budget_bytes - Use().Total_bytes()));
   if (history_.keeps()) return;
-  rebuild_wanted_ = false;
+  map_fault_ = MapFault::kNone;
   for (const RobotId& robot : fleet_.Ids()) {
     if (fleet_.StateOf(robot).frame_suspect) TrustAgain(robot);
   }
@@ -142,9 +150,9 @@ absl::StatusOr<Applied> Mission::Change(const MapRebuildBegun&) {
   OccupancyGrid base = history_.Base();
   base.LimitCells(MostMapCells());
   history_.CloseKeyScans();
-  rebuild_ = std::make_shared<MapRebuild>(RebuildInputs{
-      sample_time_ns_, history_.next_number() - 1, std::move(base), history_.ScansFrom(0), stop_});
-  rebuild_wanted_ = false;
+  rebuild_ = std::make_shared<MapRebuild>(
+      RebuildInputs{sample_time_ns_, history_.next_number() - 1, std::move(base),
+                    history_.ScansFrom(0), stop_, std::exchange(map_fault_, MapFault::kNone)});
   return Applied{};
 }
 

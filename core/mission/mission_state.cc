@@ -24,7 +24,7 @@ namespace plumescout {
 namespace {
 
 // Of what SaveState writes. Who changes that counts it up, and reads the old one on.
-constexpr std::uint32_t kStateVersion = 4;
+constexpr std::uint32_t kStateVersion = 5;
 constexpr std::uint32_t kOldestStateVersion = 1;
 constexpr std::uint32_t kVersionWithHistory = 2;
 
@@ -97,14 +97,15 @@ void Mission::VisitState(Archive& archive, Self& self) {
     // Until something was corrected, or doubted, the history tells nothing more than the rest does,
     // and missions of before it was kept have the hash that they had.
     if (self.history_.was_used()) {
-      archive(self.history_, self.jump_watch_, self.rebuild_wanted_, self.rebuilt_ns_,
+      archive(self.history_, self.jump_watch_, self.map_fault_, self.rebuilt_ns_,
               self.rebuild_ != nullptr);
       if (self.rebuild_ != nullptr) {
         archive(self.rebuild_->time_ns(), self.rebuild_->last_number());
+        archive.Since(5, self.rebuild_->fault() == MapFault::kSlight);
       }
     }
   } else {
-    archive.Since(2, self.history_, self.jump_watch_, self.rebuild_wanted_, self.rebuilt_ns_);
+    archive.Since(2, self.history_, self.jump_watch_, self.map_fault_, self.rebuilt_ns_);
   }
   // Missions of before had no purpose of their own, and those without one have the bytes they had.
   if (self.has_purpose()) archive(self.progress_);

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "absl/strings/str_cat.h"
+#include "absl/strings/str_format.h"
 #include "absl/strings/string_view.h"
 #include "core/types/checker.h"
 #include "core/types/status_macros.h"
@@ -93,6 +94,21 @@ absl::Status CheckPlace(const Pose2& in_mission, double limit_m) {
       .InRange("pose.x_m in frame map", in_mission.x_m, -limit_m, limit_m)
       .InRange("pose.y_m in frame map", in_mission.y_m, -limit_m, limit_m)
       .status();
+}
+
+absl::Status CheckStep(const WayPoint& before, const WayPoint& now, double max_robot_speed_mps) {
+  constexpr double kJump_m = 5.0;
+  constexpr double kSecondsPerNanosecond = 1e-9;
+  const double elapsed_s = kSecondsPerNanosecond * static_cast<double>(std::max<std::int64_t>(
+                                                       0, now.time_ns - before.time_ns));
+  const double most_m = kJump_m + max_robot_speed_mps * elapsed_s;
+  const double distance_m = Distance_m(before.pose.position(), now.pose.position());
+  if (max_robot_speed_mps == 0.0 || distance_m <= most_m) return absl::OkStatus();
+  return absl::InvalidArgumentError(absl::StrFormat(
+      "pose = (%.2f, %.2f) in frame map is %.2f m from the robot's last, (%.2f, %.2f), %.3f s "
+      "before; it must be within %.2f m by max_robot_speed_mps = %g",
+      now.pose.x_m, now.pose.y_m, distance_m, before.pose.x_m, before.pose.y_m, elapsed_s, most_m,
+      max_robot_speed_mps));
 }
 
 std::int64_t MissionTime_ns(const Observation& observation, std::int64_t clock_offset_ns) {

@@ -5,6 +5,7 @@
 #include <cstdint>
 
 #include "absl/status/status.h"
+#include "core/mission/way_correction.h"
 #include "core/types/observation.h"
 #include "core/types/options.h"
 #include "core/types/pose2.h"
@@ -37,5 +38,10 @@ absl::Status CheckObservation(const Observation& observation, const MissionOptio
 
 // kInvalidArgument if a pose lies beyond the limit in frame map, though not in its robot's frame.
 absl::Status CheckPlace(const Pose2& in_mission, double limit_m);
+
+// kInvalidArgument if the robot cannot have come from `before` to `now`, both in frame map: it is
+// farther than 5 m and what it drives meanwhile at that speed; 0: it can. A jump of a few metres is
+// no fault of the observation, see JumpWatch.
+absl::Status CheckStep(const WayPoint& before, const WayPoint& now, double max_robot_speed_mps);
 
 }  // namespace plumescout

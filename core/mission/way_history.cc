@@ -21,11 +21,18 @@ constexpr std::int64_t kKeyTime_ns = 1'000'000'000;
 constexpr int kMostTimes = 9;  // by then log-odds have come to their clamp
 // Doubt begins with the last scan that fitted, a little before a jump and its first anchor.
 constexpr std::int64_t kDoubtBefore_ns = 10'000'000'000;
+// So far away is what a scan sees.
+constexpr double kSeen_m = 3.0;
 
 bool IsAnother(const WayPoint& key, std::int64_t time_ns, const Pose2& pose) {
   return time_ns >= key.time_ns && time_ns - key.time_ns < kKeyTime_ns &&
          Distance_m(key.pose.position(), pose.position()) < kKeyDistance_m &&
          std::abs(WrapAngle_rad(pose.yaw_rad - key.pose.yaw_rad)) < kKeyTurn_rad;
+}
+
+double Move_m(const Pose2& from, const Pose2& to) {
+  return Distance_m(from.position(), to.position()) +
+         kSeen_m * std::abs(WrapAngle_rad(to.yaw_rad - from.yaw_rad));
 }
 
 bool IsWithin(const Pose2& pose, double limit_m) {
@@ -200,17 +207,23 @@ absl::Status WayHistory::CheckCorrection(const RobotId& robot, std::int64_t time
   return CorrectionOf(robot, time_ns, anchors, added).status();
 }
 
-absl::StatusOr<bool> WayHistory::Correct(const RobotId& robot, std::int64_t time_ns,
-                                         const std::vector<PoseAnchor>& anchors,
-                                         std::int64_t doubtful_from, WayPoint* start) {
+absl::StatusOr<WayHistory::Corrected> WayHistory::Correct(const RobotId& robot,
+                                                          std::int64_t time_ns,
+                                                          const std::vector<PoseAnchor>& anchors,
+                                                          std::int64_t doubtful_from,
+                                                          WayPoint* start) {
   PLUMESCOUT_ASSIGN_OR_RETURN(const WayCorrection correction,
                               CorrectionOf(robot, time_ns, anchors, {}));
   Way& way = ways_.at(robot);
   // When what is in quarantine begins, of the present doubt and of earlier ones.
   std::int64_t present_ns = std::numeric_limits<std::int64_t>::max();
   std::int64_t earlier_ns = present_ns;
+  Corrected made;
   const auto correct = [&](auto& entry) {
-    if (entry.time_ns <= time_ns) entry.pose = correction.Corrected(entry.time_ns, entry.pose);
+    if (entry.time_ns > time_ns) return;
+    const Pose2 corrected = correction.Corrected(entry.time_ns, entry.pose);
+    made.moved_m = std::max(made.moved_m, Move_m(entry.pose, corrected));
+    entry.pose = corrected;
   };
   const auto correct_all = [&](auto& entries) {
     for (auto& entry : entries) {
@@ -223,12 +236,12 @@ absl::StatusOr<bool> WayHistory::Correct(const RobotId& robot, std::int64_t time
   correct_all(way.scans);
   for (KeptScan& entry : way.scans) correct(entry.last);
   correct(way.latest);
-  const bool covers = anchors.back().sample_time_ns >= present_ns;
+  made.covers_doubt = anchors.back().sample_time_ns >= present_ns;
   const bool covers_earlier = anchors.back().sample_time_ns >= earlier_ns;
   const std::int64_t from_ns = anchors.front().sample_time_ns - kDoubtBefore_ns;
   const auto release = [&](auto& entries) {
     for (auto& entry : entries) {
-      const bool covered = entry.number < doubtful_from ? covers_earlier : covers;
+      const bool covered = entry.number < doubtful_from ? covers_earlier : made.covers_doubt;
       if (covered && entry.time_ns >= from_ns) entry.quarantined = false;
     }
   };
@@ -237,7 +250,7 @@ absl::StatusOr<bool> WayHistory::Correct(const RobotId& robot, std::int64_t time
   way.key_scan_closed = true;
   if (start != nullptr && start->time_ns > way.merged_ns) correct(*start);
   used_ = true;
-  return covers;
+  return made;
 }
 
 std::vector<WayHistory::Heard> WayHistory::HeardReadings() const {

@@ -61,14 +61,18 @@ class WayHistory {
 
   // The anchors, in frame map, move the robot's way up to `time_ns`. What is in quarantine comes
   // out of it if the last anchor is not before it; entries from the number `doubtful_from` on,
-  // which are in doubt now, apart from those of earlier doubts. Returns whether the former do.
+  // which are in doubt now, apart from those of earlier doubts.
   // `start`, a place of the way, moves with it if it was not merged; its heading does not count.
   // Errors, with nothing changed: kFailedPrecondition if nothing is kept, HISTORY_TRIMMED if an
   // anchor is of a time that was merged; kInvalidArgument for times of which nothing was heard, and
   // for ways that would lead beyond the limit of poses. Cost: O(entries of the robot * log).
-  absl::StatusOr<bool> Correct(const RobotId& robot, std::int64_t time_ns,
-                               const std::vector<PoseAnchor>& anchors,
-                               std::int64_t doubtful_from = 0, WayPoint* start = nullptr);
+  struct Corrected {
+    bool covers_doubt = false;  // what is in doubt now came out of quarantine
+    double moved_m = 0.0;       // by which a pose was moved at most; a radian counts as 3 m
+  };
+  absl::StatusOr<Corrected> Correct(const RobotId& robot, std::int64_t time_ns,
+                                    const std::vector<PoseAnchor>& anchors,
+                                    std::int64_t doubtful_from = 0, WayPoint* start = nullptr);
 
   // The errors of Correct, if these points were added to the robot's way before. Cost: as of it.
   absl::Status CheckCorrection(const RobotId& robot, std::int64_t time_ns,

@@ -204,6 +204,7 @@ absl::Status ComposedStrategy::PlanFrom(const Departure& departure, const Call& 
   GiveWay({query, departure, problem, judge}, plan);
   if (ahead != nullptr) LeavePromisedSight(belief, plan);
   Choose(foreseen, InField(options_, mission.gas), stop, plan);
+  if (plan.chosen >= 0) NoteWhomItWaitsFor(belief, departure.yaw_rad, options_, plan);
   const bool budget_spent = request.max_edge_evaluations > 0 &&
                             plan.effort.edges_evaluated >= request.max_edge_evaluations;
   return stopped_empty && !budget_spent ? StoppedBeforeAnyPath() : absl::OkStatus();
@@ -221,6 +222,9 @@ plumescout::Plan ComposedStrategy::Incumbent(const Judging& judging, PathResult 
   RejectOverBudget(judging.query, plan);
   YieldToRobots(judging.query.belief, judging.departure.yaw_rad, options_, plan);
   Choose(judging.query.belief, options, NeverStop(), plan);
+  if (plan.chosen >= 0) {
+    NoteWhomItWaitsFor(judging.query.belief, judging.departure.yaw_rad, options_, plan);
+  }
   Conclude(judging.departure.yaw_rad, options, plan);
   return plan;
 }

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <vector>
 
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_format.h"
@@ -66,13 +67,19 @@ bool IsWithoutWayHome(const Plan& plan) {
   });
 }
 
-// Of a trajectory that is to stop for nothing else.
-std::string WaitOnTheWay(const Trajectory& trajectory) {
-  for (std::size_t i = 1; i + 1 < trajectory.waypoints.size(); ++i) {
-    const Waypoint& stop = trajectory.waypoints[i];
+std::string UntilPassed(const Plan& plan) {
+  return plan.waits_for.empty() ? "until other robots have passed"
+                                : absl::StrCat("until robot \"", plan.waits_for, "\" has passed");
+}
+
+// Of a plan whose trajectory is to stop for nothing else.
+std::string WaitOnTheWay(const Plan& plan) {
+  const std::vector<Waypoint>& waypoints = plan.trajectory.waypoints;
+  for (std::size_t i = 1; i + 1 < waypoints.size(); ++i) {
+    const Waypoint& stop = waypoints[i];
     if (stop.dwell_s == 0.0) continue;
-    return absl::StrFormat("; waiting %.1f s at (%.1f, %.1f) until other robots have passed",
-                           stop.dwell_s, stop.pose.x_m, stop.pose.y_m);
+    return absl::StrFormat("; waits %.1f s at (%.1f, %.1f) %s", stop.dwell_s, stop.pose.x_m,
+                           stop.pose.y_m, UntilPassed(plan));
   }
   return "";
 }
@@ -90,10 +97,9 @@ std::string Choice(const Plan& plan, const PlanningOptions& options) {
     absl::StrAppend(&text, "; from every other goal it would be home after the deadline");
   }
   if (const double wait_s = WaitOf_s(plan.trajectory); wait_s > 0.0) {
-    absl::StrAppend(&text,
-                    absl::StrFormat("; %.1f s from now, when other robots have passed", wait_s));
+    absl::StrAppend(&text, absl::StrFormat("; waits %.1f s %s", wait_s, UntilPassed(plan)));
   }
-  if (options.dwell_s == 0.0 && chosen.stops.empty()) text += WaitOnTheWay(plan.trajectory);
+  if (options.dwell_s == 0.0 && chosen.stops.empty()) text += WaitOnTheWay(plan);
   if (plan.start_escaped) absl::StrAppend(&text, "; first out of the margin around obstacles");
   if (plan.field_flat) absl::StrAppend(&text, "; the information map is flat");
   if (plan.end == PlanEnd::kStopped) absl::StrAppend(&text, "; the search was stopped early");
@@ -127,9 +133,10 @@ std::string Explain(const Plan& plan, const PlanningOptions& options) {
     case PlanEnd::kStartOccupied:
       return "Stay: there is no way out from where the robot stands.";
     case PlanEnd::kAllGoalsRejected:
-      return absl::StrCat(
-          "Stay: all of ", plan.rejected.size(), " goals were rejected",
-          Rejects(plan, RejectionReason::kTraffic) ? "; other robots are to pass first." : ".");
+      return absl::StrCat("Stay: all of ", plan.rejected.size(), " goals were rejected",
+                          Rejects(plan, RejectionReason::kTraffic)
+                              ? absl::StrCat("; waits ", UntilPassed(plan), ".")
+                              : ".");
     case PlanEnd::kAllGoalsReached:
     case PlanEnd::kQueueExhausted:
       break;

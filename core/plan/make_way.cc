@@ -231,6 +231,7 @@ void Take(Candidate candidate, const std::string& reason, double start_yaw_rad,
           const PlanningOptions& options, Plan& plan) {
   plan.candidates = {std::move(candidate)};
   plan.chosen = 0;
+  plan.waits_for.clear();
   plan.end = plan.rejected.empty() ? PlanEnd::kAllGoalsReached : PlanEnd::kQueueExhausted;
   if (plan.phase == MissionPhase::kComplete) plan.phase = MissionPhase::kFallback;
   Candidate& chosen = plan.candidates.front();

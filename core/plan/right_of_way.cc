@@ -17,6 +17,8 @@
 namespace plumescout {
 namespace {
 
+constexpr double kRounding_s = 1e-6;  // a wait is more
+
 // Of strategies that sample sites the robot stands at those alone.
 Trajectory Timed(const Candidate& candidate, double start_yaw_rad, const PlanningOptions& options) {
   return candidate.stops.empty()
@@ -113,17 +115,27 @@ void YieldToRobots(const Waits& waits, double start_yaw_rad, const PlanningOptio
   });
   for (const Candidate& candidate : blocked) {
     const Trajectory trajectory = Timed(candidate, start_yaw_rad, options);
-    plan.rejected.push_back(InTraffic(candidate, *waits.traffic.FirstMeeting(trajectory)));
+    const Meeting meeting = *waits.traffic.FirstMeeting(trajectory);
+    if (clear.empty() && plan.waits_for.empty()) plan.waits_for = meeting.robot;
+    plan.rejected.push_back(InTraffic(candidate, meeting));
   }
   plan.candidates = std::move(clear);
   if (plan.candidates.empty()) plan.end = PlanEnd::kAllGoalsRejected;
+}
+
+void NoteWhomItWaitsFor(const Belief& belief, double start_yaw_rad, const PlanningOptions& options,
+                        Plan& plan) {
+  const Candidate& chosen = plan.candidates[static_cast<std::size_t>(plan.chosen)];
+  const Trajectory at_once = Timed(chosen, start_yaw_rad, options);
+  if (chosen.duration_s - at_once.duration_s <= kRounding_s) return;
+  const std::optional<Meeting> meeting = TrafficFor(belief, plan, options).FirstMeeting(at_once);
+  if (meeting) plan.waits_for = meeting->robot;
 }
 
 Trajectory TrajectoryOf(const Candidate& candidate, double start_yaw_rad,
                         const PlanningOptions& options) {
   Trajectory trajectory = Timed(candidate, start_yaw_rad, options);
   const double wait_s = candidate.duration_s - trajectory.duration_s;
-  constexpr double kRounding_s = 1e-6;
   if (wait_s > kRounding_s) WaitAtStart(wait_s, trajectory);
   return trajectory;
 }

@@ -43,14 +43,21 @@ std::optional<Waits> FindWaitsUntil(const StopFn& stop, const Belief& belief, do
 
 // Others go first whose plans are live, and who have waited for long (precedence.h): each candidate
 // waits at its start until its way is clear of theirs, which adds to its duration_s; one that would
-// have to wait longer than kMaxWait_s is rejected (kTraffic), the soonest reached first. REQUIRES:
-// duration_s of all candidates; `waits` are theirs. Cost: that of Traffic::FirstMeeting for each
-// that is rejected.
+// have to wait longer than kMaxWait_s is rejected (kTraffic), the soonest reached first. If none is
+// left the plan waits for the robot in the way of the first (Plan::waits_for). REQUIRES: duration_s
+// of all candidates; `waits` are theirs. Cost: that of Traffic::FirstMeeting for each that is
+// rejected.
 void YieldToRobots(const Waits& waits, double start_yaw_rad, const PlanningOptions& options,
                    Plan& plan);
 // By FindWaits.
 void YieldToRobots(const Belief& belief, double start_yaw_rad, const PlanningOptions& options,
                    Plan& plan);
+
+// If the chosen candidate waits before it leaves, the plan does so for the robot that it would meet
+// if it left at once. REQUIRES: a choice; its duration_s, of YieldToRobots. Cost: that of
+// TrafficFor and of Traffic::FirstMeeting, if it waits.
+void NoteWhomItWaitsFor(const Belief& belief, double start_yaw_rad, const PlanningOptions& options,
+                        Plan& plan);
 
 // The candidate's trajectory, the wait for others included. REQUIRES: its duration_s, of
 // YieldToRobots.

@@ -163,6 +163,7 @@ absl::Status SamplingStrategy::PlanFrom(const Belief& belief, const StopFn& stop
   RejectOverBudget(query, plan);
   YieldToRobots(belief, departure.yaw_rad, options_, plan);
   Conclude(choice, start);
+  if (plan.chosen >= 0) NoteWhomItWaitsFor(belief, departure.yaw_rad, options_, plan);
   return absl::OkStatus();
 }
 

@@ -23,9 +23,7 @@ std::size_t StepsIn(double time_s) { return static_cast<std::size_t>(std::ceil(t
 
 // A way that should have ended so long ago, beside its own duration, is driven no more.
 constexpr double kPatience_s = 30.0;
-// The plan of a robot that asks on its way begins up to so far ahead of its latest pose, and it may
-// be so long until a pose comes from there: answers and poses take their time.
-constexpr double kSetsOut_m = 2.0;
+// So long may it be until a pose comes from where its plan begins.
 constexpr double kSetsOut_s = 2.0;
 constexpr double kSecondsPerNanosecond = 1e-9;
 
@@ -98,7 +96,7 @@ bool IsOnItsWay(const RobotRecord& record, std::int64_t now_ns) {
   const bool at_start = nearest.time_s <= way->waypoints.front().dwell_s;
   const bool may_set_out = at_start && elapsed_s < kSetsOut_s;
   return elapsed_s <= 2.0 * way->duration_s + kPatience_s &&
-         nearest.distance_m <= (may_set_out ? kSetsOut_m : kOffTrajectory_m);
+         nearest.distance_m <= (may_set_out ? kStartsAhead_m : kOffTrajectory_m);
 }
 
 double Lateness_s(const RobotRecord& record, std::int64_t now_ns) {

@@ -41,6 +41,10 @@ inline constexpr double kCommittedClearance_m = 0.1;
 // stray, and less than the width of a corridor.
 inline constexpr double kOffTrajectory_m = 0.5;
 
+// The plan of a robot that asks on its way begins up to so far ahead of its latest pose: answers
+// and poses take their time.
+inline constexpr double kStartsAhead_m = 2.0;
+
 // Where the other robots of a mission will be: on their live plans, from where they are along them,
 // or where they stand. Prioritised planning in the order of commitment: a live plan is never
 // changed for another robot, and who comes later waits, goes elsewhere or stays.

@@ -36,6 +36,7 @@ inline constexpr absl::string_view kKeepOutCoversHome = "KEEP_OUT_COVERS_HOME";
 inline constexpr absl::string_view kPlanSuperseded = "PLAN_SUPERSEDED";
 inline constexpr absl::string_view kPlanEnded = "PLAN_ENDED";
 inline constexpr absl::string_view kStartOutsideMap = "START_OUTSIDE_MAP";
+inline constexpr absl::string_view kStartInRobot = "START_IN_ROBOT";
 inline constexpr absl::string_view kTeamTooLarge = "TEAM_TOO_LARGE";
 inline constexpr absl::string_view kOutsideRegion = "OUTSIDE_REGION";
 inline constexpr absl::string_view kDeadlineBeforeFirstPlan = "DEADLINE_BEFORE_FIRST_PLAN";

@@ -197,6 +197,8 @@ absl::Status Validate(const MissionOptions& options) {
       .InRange("max_robot_count", options.max_robot_count, 1, 1000)
       .InRange("robot_silence_s", options.robot_silence_s, 1.0, 1e9)
       .InRange("return_home_below_battery_share", options.return_home_below_battery_share, 0.0, 1.0)
+      .InRange("max_robot_speed_mps", options.max_robot_speed_mps, 0.0, 1000.0)
+      .InRange("misleading_move_m", options.misleading_move_m, 0.0, 10.0)
       .InRange("memory_budget_bytes", options.memory_budget_bytes, kMinBudget_bytes,
                kMaxBudget_bytes)
       .InRange("home.x_m", home.x_m, -options.pose_limit_m, options.pose_limit_m)

@@ -13,7 +13,7 @@
 #include "core/types/grid.h"
 #include "core/types/polygon.h"
 #include "core/types/pose2.h"
-#include "core/types/rectangle.h"
+#include "core/types/site_options.h"
 
 namespace plumescout {
 
@@ -134,41 +134,6 @@ enum class PathKind {
   kInformedRrtStar,
   kBitStar,
   kPrmStar,
-};
-
-// What a place is worth sampling for, from its mean mu, its variance and the time C to drive there
-// and sample, [IPP] Eq. (7); V is mu over the mean of the map, both above the background, Eq. (10).
-enum class SamplingReward {
-  kVariance,                      // sigma^2, Eq. (8)
-  kVariancePerTime,               // sigma^2 / C, Eq. (9)
-  kConcentrationVariance,         // V sigma^2, Eq. (11)
-  kConcentrationPerTime,          // V / C, Eq. (12); no place twice
-  kConcentrationVariancePerTime,  // V sigma^2 / C, Eq. (13)
-  kMean,                          // mu, [LHR] section IV
-  kUcb,                           // mu + beta sigma^2, [LHR] section IV
-};
-
-// Sites: the places on a square lattice where the strategies lhr, ipp_reward, random_sampling and
-// sweep have robots stop for dwell_s and sample. One lies in the middle of each square of
-// spacing_m.
-struct SiteOptions {
-  // What is sampled; whole multiples of spacing_m wide and high. None: all of the map, which the
-  // strategies that make a tour do not take.
-  std::optional<Rectangle> region;
-  double spacing_m = 1.0;  // d_res of [LHR], [0.05, 1000]
-  SamplingReward reward = SamplingReward::kUcb;
-  // lhr and random_sampling: every survey_stride-th site first; the last row and column are among
-  // them.
-  bool survey = true;
-  int survey_stride = 10;  // alpha of [LHR], [1, 1000]
-  // lhr and random_sampling: update cycles of cycle_sample_count sites, of the candidate_count
-  // best, that are reached and sampled within update_period_s; [LHR] (P2).
-  int candidate_count = 15;       // M, [1, 16]
-  int cycle_sample_count = 10;    // T, [1, M]
-  double update_period_s = 50.0;  // t_up, [0.001, 1e6]
-  // sweep: every sweep_stride-th site of every sweep_leg_stride-th row.
-  int sweep_stride = 1;      // [1, 1000]
-  int sweep_leg_stride = 1;  // [1, 1000]
 };
 
 // One row of the strategy table: where to go, how to get there, which to take.
@@ -295,6 +260,9 @@ struct MissionOptions {
   // A robot that tells of less than this of a full battery is sent home, until it has 0.1 more than
   // this, or is full; [0, 1]; 0: none is.
   double return_home_below_battery_share = 0.0;
+  // A pose farther than 5 m, and what the robot drives at this speed since, from its last one is
+  // refused; [0, 1000]; 0: none is. Whoever registers again, or corrects its poses, begins anew.
+  double max_robot_speed_mps = 20.0;
   // What the mission may come to hold, as reckoned by core/mission/memory_estimate.h;
   // [33554432 (32 MiB), 1e12]. Near it the gas lattice becomes coarser; what would go beyond is
   // refused with BUDGET_REACHED, and the map stays as it is.
@@ -305,6 +273,9 @@ struct MissionOptions {
   // Whether scans and readings are kept, in up to a quarter of the budget, so that poses can be
   // corrected later (PoseCorrection) and robots that lose their place are told. False: neither.
   bool keep_scans = true;
+  // Poses that were wrong by less than this do not mislead by the map that was made with them:
+  // robots are judged by it before it is rebuilt. A radian counts as 3 m; [0, 10]; 0: all mislead.
+  double misleading_move_m = 0.1;
   std::uint64_t seed = 1;
   // Where nobody may drive when the mission begins; see core/types/keep_out.h.
   std::vector<Polygon> keep_out;

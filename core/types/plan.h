@@ -166,6 +166,9 @@ struct Plan {
   // So long after it has set out the robot had better ask for another plan, and go on meanwhile; 0:
   // not before it is there. For who asked, and not in the committed event.
   double replan_after_s = 0.0;
+  // Whom the robot lets pass first, before it leaves or while it stays; empty: nobody. As
+  // replan_after_s.
+  RobotId waits_for;
   // CPU time of planning, filled in by whoever ran the planner when it answers; 0 in the committed
   // event, which has to be the same whenever the run is repeated.
   double cpu_s = 0.0;

@@ -92,8 +92,9 @@ void VisitMembers(auto& archive, Is<PlanEffort> auto& effort) {
 void VisitMembers(auto& archive, Is<Plan> auto& plan) {
   auto& [id, robot, strategy, belief_revision, seed, phase, end, chosen, candidates, rejected,
          trajectory, effort, field_flat, goal_kept, start_escaped, explanation, replan_after_s,
-         cpu_s] = plan;
+         waits_for, cpu_s] = plan;
   static_cast<void>(replan_after_s);  // for who asked
+  static_cast<void>(waits_for);       // likewise
   archive(id, robot, strategy, belief_revision, seed, phase, end, chosen, candidates, rejected,
           trajectory, effort, field_flat, goal_kept, start_escaped, explanation, cpu_s);
 }

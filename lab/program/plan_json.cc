@@ -62,7 +62,8 @@ std::string PlanToJson(const Plan& plan, std::size_t tree_edges) {
                {"field_flat", plan.field_flat},
                {"goal_kept", plan.goal_kept},
                {"start_escaped", plan.start_escaped},
-               {"replan_after_s", plan.replan_after_s}};
+               {"replan_after_s", plan.replan_after_s},
+               {"waits_for", plan.waits_for}};
   json["effort"] = {{"samples", plan.effort.samples},
                     {"vertices", plan.effort.vertices},
                     {"tree_edges", tree_edges},

@@ -151,9 +151,11 @@ void Visit(OneOf<MissionOptions> auto& options, auto& field) {
   field("max_robot_count", options.max_robot_count);
   field("robot_silence_s", options.robot_silence_s);
   field("return_home_below_battery_share", options.return_home_below_battery_share);
+  field("max_robot_speed_mps", options.max_robot_speed_mps);
   field("memory_budget_bytes", options.memory_budget_bytes);
   field("stamp_by_arrival", options.stamp_by_arrival);
   field("keep_scans", options.keep_scans);
+  field("misleading_move_m", options.misleading_move_m);
   field("seed", options.seed);
 }
 
@@ -298,6 +300,8 @@ absl::StatusOr<MissionOptions> FromProto(const v1::MissionOptions& proto,
 MissionOptions RecordedDefaults() {
   MissionOptions options;
   options.keep_scans = false;
+  options.misleading_move_m = 0.0;
+  options.max_robot_speed_mps = 0.0;
   options.occupancy = PublishedOccupancyOptions();
   options.gas = PublishedGasOptions();
   options.gas.estimate_noise = false;

@@ -71,6 +71,11 @@ absl::Status ReadNames(const v1::Plan& proto, absl::string_view field, Plan& pla
   PLUMESCOUT_ASSIGN_OR_RETURN(const RobotName robot,
                               ParseRobotName(Join(field, "robot"), proto.robot()));
   plan.robot = robot.robot;
+  if (!proto.waits_for().empty()) {
+    PLUMESCOUT_ASSIGN_OR_RETURN(const RobotName other,
+                                ParseRobotName(Join(field, "waits_for"), proto.waits_for()));
+    plan.waits_for = other.robot;
+  }
   if (proto.name().empty()) return absl::OkStatus();
   PLUMESCOUT_ASSIGN_OR_RETURN(const PlanName name,
                               ParsePlanName(Join(field, "name"), proto.name()));
@@ -172,6 +177,7 @@ v1::Plan ToProto(const Plan& plan, const MissionId& mission) {
   proto.set_explanation(plan.explanation);
   if (SamplesSites(plan)) proto.set_map_update_s(plan.trajectory.duration_s);
   if (plan.replan_after_s > 0.0) proto.set_replan_after_s(plan.replan_after_s);
+  if (!plan.waits_for.empty()) proto.set_waits_for(RobotResource({mission, plan.waits_for}));
   const auto cpu_ns = std::llround(plan.cpu_s * kNanosecondsPerSecond);
   proto.mutable_cpu_duration()->set_seconds(cpu_ns / std::llround(kNanosecondsPerSecond));
   proto.mutable_cpu_duration()->set_nanos(

@@ -14,9 +14,12 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
 
+std::string OptionHeaders() {
+  return ReadText("core/types/options.h") + ReadText("core/types/site_options.h");
+}
+
 TEST(OptionRules, OptionsOfMissionsAreCalledTheSameInCoreAndOnTheWire) {
-  EXPECT_THAT(CheckOptionNames(ReadText("proto/plumescout/v1/options.proto"),
-                               ReadText("core/types/options.h")),
+  EXPECT_THAT(CheckOptionNames(ReadText("proto/plumescout/v1/options.proto"), OptionHeaders()),
               IsEmpty());
 }
 
@@ -69,7 +72,7 @@ struct PlanOptions {
 
 // The rules would pass if they found nothing to compare.
 TEST(OptionRules, MembersThatAreTakenAwayAreMissed) {
-  std::string header = ReadText("core/types/options.h");
+  std::string header = OptionHeaders();
   header.replace(header.find("double commitment_margin_share"), 30,
                  "double commitment_margin_shame");
   EXPECT_THAT(CheckOptionNames(ReadText("proto/plumescout/v1/options.proto"), header),

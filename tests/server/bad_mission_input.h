@@ -22,6 +22,8 @@ inline BadInputs BadLimits() {
       .Values("options.max_robot_count", {"-1", "0", "1001"})
       .Values("options.robot_silence_s", {"nan", "inf", "-1", "0", "0.9", "1.1e9"})
       .Values("options.return_home_below_battery_share", {"nan", "inf", "-0.1", "1.1"})
+      .Values("options.misleading_move_m", {"nan", "inf", "-0.1", "10.1"})
+      .Values("options.max_robot_speed_mps", {"nan", "inf", "-1", "1001"})
       .Values("options.memory_budget_bytes", {"-1", "0", "33554431", "1073741825"});
 }
 

@@ -18,7 +18,9 @@ constexpr double kGrowth_mb = 64.0;
 absl::StatusOr<std::vector<Bar>> Run(const AttackSettings& settings) {
   PLUMESCOUT_ASSIGN_OR_RETURN(const auto bed, AttackBed::Start(settings));
   const auto client = client::MakeGrpcPlannerClient({.target = bed->target()});
-  PLUMESCOUT_RETURN_IF_ERROR(client->CreateMission(kMission, MissionOptions{}));
+  MissionOptions options;
+  options.max_robot_speed_mps = 0.0;  // else they are refused
+  PLUMESCOUT_RETURN_IF_ERROR(client->CreateMission(kMission, options));
   PLUMESCOUT_ASSIGN_OR_RETURN(
       const client::RobotSession session,
       client->RegisterRobot(kMission, "scatterer", kRadius_m, /*take_over=*/false));

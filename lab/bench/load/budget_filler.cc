@@ -112,7 +112,9 @@ int BudgetFiller::Fill(Way first) {
 absl::Status BudgetFiller::Make(const MissionId& mission, Way way) {
   const bool has_map = way != Way::kFarScans;
   if (!has_map) {
-    const absl::Status made = client_->CreateMission(mission, MissionOptions{});
+    MissionOptions options;
+    options.max_robot_speed_mps = 0.0;  // it scans faster than anybody drives
+    const absl::Status made = client_->CreateMission(mission, options);
     Took(made);
     return made;
   }
@@ -120,6 +122,7 @@ absl::Status BudgetFiller::Make(const MissionId& mission, Way way) {
   absl::Status made;
   for (double side = kLargestSide; side > 10.0 && go_on_(); side *= kSmaller) {
     MissionOptions options = WithMap(KnownHall(static_cast<int>(side)));
+    options.max_robot_speed_mps = 0.0;
     if (way == Way::kSeveralGases) {
       for (const char* name : {"co", "h2s", "ch4", "nh3"}) {
         options.gas_species.emplace_back().name = name;

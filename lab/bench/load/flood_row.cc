@@ -25,7 +25,9 @@ constexpr absl::Duration kDrain = absl::Seconds(10);
 absl::StatusOr<std::vector<Bar>> FloodRow(const RowSettings& settings) {
   PLUMESCOUT_ASSIGN_OR_RETURN(const auto server, ServerProcess::Start({settings.server_program}));
   const auto admin = client::MakeGrpcPlannerClient({.target = server->target()});
-  PLUMESCOUT_RETURN_IF_ERROR(admin->CreateMission(kMission, MissionOptions{}));
+  MissionOptions options;
+  options.max_robot_speed_mps = 0.0;  // readings come from all over the place
+  PLUMESCOUT_RETURN_IF_ERROR(admin->CreateMission(kMission, options));
   const Grid<std::uint8_t> walls = MakeBuilding(kRowWidth, kRowHeight, settings.seed);
   PLUMESCOUT_ASSIGN_OR_RETURN(
       const Team team,

@@ -44,6 +44,14 @@ TEST(MapRebuild, IsDueAfterATimeThatFollowsFromWhatThereIsToDo) {
   EXPECT_EQ(rebuild.due_ns(), 1'003'000'005);
 }
 
+// A mission that was saved before there were slight faults has 0 or 1.
+TEST(MapFault, HasTheNumbersItIsSavedWith) {
+  EXPECT_EQ(static_cast<int>(MapFault::kNone), 0);
+  EXPECT_EQ(static_cast<int>(MapFault::kMisleads), 1);
+  EXPECT_TRUE(IsOne(MapFault::kSlight));
+  EXPECT_FALSE(IsOne(static_cast<MapFault>(3)));
+}
+
 TEST(MapRebuild, ComesToNothingIfItIsStopped) {
   bool stopped = true;
   MapRebuild rebuild(RoomOf(2, [&stopped] { return stopped; }));

@@ -22,14 +22,17 @@ namespace mission_memory_test {
 constexpr std::int64_t kSecond_ns = 1'000'000'000;
 constexpr std::int64_t kLeastBudget_bytes = std::int64_t{32} << 20;
 
-// What a robot sends one thing after another.
+// What a robot sends one thing after another, from anywhere.
 class Robot {
  public:
-  explicit Robot(const MissionOptions& options) : mission_(Mission::Create(options).value()) {
+  explicit Robot(const MissionOptions& options) : options_(options) {
+    options_.max_robot_speed_mps = 0.0;
+    mission_ = Mission::Create(options_).value();
     Send(RobotRegistered{"a", 0.2, 1});
   }
 
   Mission& mission() { return *mission_; }
+  const MissionOptions& options() const { return options_; }  // that it was made with
   const std::vector<EventBody>& log() const { return log_; }
   // The refusal of the observation, or OK.
   absl::Status Observe(const Pose2& pose, decltype(Observation::payload) payload) {
@@ -47,6 +50,7 @@ class Robot {
     return applied.value_or(Applied{});
   }
 
+  MissionOptions options_;
   std::unique_ptr<Mission> mission_;
   std::vector<EventBody> log_;
   std::int64_t sequence_ = 0;
@@ -91,7 +95,7 @@ TEST(MissionMemory, AMapBeyondTheBudgetGrowsNoMore) {
   ASSERT_TRUE(plan.ok()) << plan.status();
   EXPECT_GE(plan->chosen, 0) << plan->explanation;
 
-  const auto replay = Mission::Create(options).value();
+  const auto replay = Mission::Create(robot.options()).value();
   for (const EventBody& body : robot.log()) ASSERT_TRUE(replay->Apply(body).ok());
   EXPECT_EQ(replay->memory_bytes(), robot.mission().memory_bytes());
   EXPECT_TRUE(support::SameBytes(*replay->Snapshot()->gas_variance_ppm2,

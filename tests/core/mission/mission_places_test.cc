@@ -1,8 +1,11 @@
 // SPDX-FileCopyrightText: PlumeScout contributors
 // SPDX-License-Identifier: Apache-2.0
-// Where robots of a mission may go: areas to keep out of, and goals to come back to.
+// Where robots of a mission may go: areas to keep out of, goals to come back to, and where they
+// cannot have come to.
 #include <memory>
+#include <utility>
 
+#include "absl/status/status.h"
 #include "core/mission/mission.h"
 #include "core/plan/strategy.h"
 #include "gtest/gtest.h"
@@ -70,6 +73,47 @@ TEST(MissionPlaces, LeadsARobotInAKeepOutAreaOutOfIt) {
   EXPECT_TRUE(plan->start_escaped);
   ASSERT_GE(plan->chosen, 0);
   EXPECT_NEAR(plan->trajectory.waypoints.back().pose.x_m, 3.0, 0.1);
+}
+
+absl::Status ReadAt(Mission& mission, std::int64_t sequence, double time_s, double x_m,
+                    ObservationPayload payload = GasReading{1.0, 0.0}) {
+  const auto time_ns = static_cast<std::int64_t>(time_s * kSecond_ns);
+  const auto applied = mission.Apply(
+      ObservationReceived{"a", {sequence, time_ns, {x_m, 0.0, 0.0}, std::move(payload)}});
+  return applied.ok() ? applied->observation : applied.status();
+}
+
+TEST(MissionPlaces, RefusesPosesFromWhichARobotCannotHaveCome) {
+  const auto mission = MissionOfRobotA();
+  ASSERT_TRUE(ReadAt(*mission, 1, 1.0, 1.0).ok());
+  const auto readings = mission->Snapshot()->gas_counters.readings;
+  const std::unique_ptr<Mission> restored = *Mission::Restore({}, *mission->SaveState());
+  for (Mission* each : {mission.get(), restored.get()}) {
+    const absl::Status status = ReadAt(*each, 2, 1.1, 40.0);
+    EXPECT_TRUE(absl::IsInvalidArgument(status)) << status;
+    EXPECT_EQ(each->StateOf("a")->pose.x_m, 1.0);
+    EXPECT_EQ(each->StateOf("a")->rejected_observations, 1);
+    EXPECT_EQ(each->Snapshot()->gas_counters.readings, readings);
+  }
+  EXPECT_TRUE(ReadAt(*mission, 3, 1.2, 1.5).ok());
+  EXPECT_TRUE(ReadAt(*mission, 4, 4.0, 40.0).ok()) << "it had the time";
+  MissionOptions options;
+  options.max_robot_speed_mps = 0.0;
+  const auto anywhere = MissionOfRobotA(options);
+  EXPECT_TRUE(ReadAt(*anywhere, 1, 1.0, 1.0).ok());
+  EXPECT_TRUE(ReadAt(*anywhere, 2, 1.1, 900.0).ok());
+}
+
+TEST(MissionPlaces, WhoCorrectsItsPosesOrRegistersAgainMayBeAnywhere) {
+  const auto mission = MissionOfRobotA();
+  ASSERT_TRUE(ReadAt(*mission, 1, 1.0, 1.0).ok());
+  ASSERT_TRUE(
+      ReadAt(*mission, 2, 1.1, 90.0, PoseCorrection{{{kSecond_ns, {90.0, 0.0, 0.0}}}}).ok());
+  EXPECT_TRUE(ReadAt(*mission, 3, 1.2, 90.5).ok());
+  EXPECT_FALSE(ReadAt(*mission, 4, 1.3, 1.5).ok());
+  ASSERT_TRUE(mission->Apply(RobotRegistered{"a", 0.2, 2}).ok());
+  EXPECT_TRUE(ReadAt(*mission, 5, 1.4, 1.5).ok());
+  EXPECT_FALSE(ReadAt(*mission, 6, 1.5, 90.5).ok());
 }
 
 TEST(MissionPlaces, ForgetsThatAGoalWasBlockedWhenTheMapThereChanges) {

@@ -26,6 +26,13 @@ std::unique_ptr<Mission> MissionWith(std::initializer_list<const char*> robots,
   return *std::move(mission);
 }
 
+// A robot may come from anywhere to anywhere.
+MissionOptions FromAnywhere() {
+  MissionOptions options;
+  options.max_robot_speed_mps = 0.0;
+  return options;
+}
+
 // One robot measures and plans its way through a room; every event lands in the log.
 std::vector<EventBody> RecordRun(Mission& mission) {
   std::vector<EventBody> log;
@@ -143,7 +150,7 @@ TEST(Mission, RefusedObservationsCountAsAppliedAndChangeNothingElse) {
 
 // A room of 3 m x 3 m, seen from its middle.
 TEST(Mission, EveryReadingIsCountedWhateverBecomesOfIt) {
-  const auto mission = MissionWith({"a"});
+  const auto mission = MissionWith({"a"}, FromAnywhere());
   std::int64_t sequence = 0;
   const auto observe = [&](std::int64_t time_ns, Pose2 pose, auto payload) {
     const auto applied =
@@ -189,7 +196,7 @@ TEST(Mission, EveryReadingIsCountedWhateverBecomesOfIt) {
 }
 
 TEST(Mission, ScansBeyondTheLargestMapAreRefused) {
-  const auto mission = MissionWith({"a"});
+  const auto mission = MissionWith({"a"}, FromAnywhere());
   const Pose2 far{900.0, 0.0, 0.0};
   const Pose2 near{0.0, 0.0, 0.0};
   ASSERT_TRUE(mission

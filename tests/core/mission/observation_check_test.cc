@@ -95,5 +95,24 @@ INSTANTIATE_TEST_SUITE_P(
         BadCase{"gas.variance_ppm2", [](Observation& o) { GasOf(o).variance_ppm2 = 1e-300; },
                 GoodGas()}));
 
+TEST(CheckStep, RefusesWhereTheRobotCannotHaveComeTo) {
+  constexpr std::int64_t kSecond_ns = 1'000'000'000;
+  const WayPoint before{10 * kSecond_ns, {1.0, 2.0, 0.0}};
+  const auto to = [&](double x_m, double after_s, double speed_mps = 20.0) {
+    const auto time_ns = before.time_ns + std::llround(after_s * 1e9);
+    return CheckStep(before, {time_ns, {x_m, 2.0, 3.0}}, speed_mps);
+  };
+  EXPECT_TRUE(to(5.9, 0.0).ok()) << "a jump of a localisation";
+  const absl::Status status = to(8.1, 0.1);
+  EXPECT_EQ(status.code(), absl::StatusCode::kInvalidArgument);
+  EXPECT_THAT(std::string(status.message()),
+              testing::AllOf(testing::HasSubstr("pose = (8.10, 2.00)"),
+                             testing::HasSubstr("7.10 m"), testing::HasSubstr("0.100 s"),
+                             testing::HasSubstr("max_robot_speed_mps = 20")));
+  EXPECT_TRUE(to(8.1, 0.2).ok()) << "at 20 m/s";
+  EXPECT_FALSE(to(6.1, -3.0).ok()) << "a clock that was set back lets it go nowhere";
+  EXPECT_TRUE(to(900.0, 0.0, 0.0).ok());
+}
+
 }  // namespace observation_check_test
 }  // namespace plumescout

@@ -103,12 +103,12 @@ TEST_F(WayHistoryTest, ACorrectionThatCoversTheQuarantineEndsIt) {
   for (int t = 0; t < 10; ++t) Read(1.0 + t, t * kSecond_ns, /*quarantined=*/t >= 5);
   const auto before = history_.Correct("a", 10 * kSecond_ns, {{2 * kSecond_ns, {3.0, 2.0, 0.0}}});
   ASSERT_TRUE(before.ok()) << before.status();
-  EXPECT_FALSE(*before);
+  EXPECT_FALSE(before->covers_doubt);
   EXPECT_EQ(Places().size(), 5u);
   const auto covers = history_.Correct(
       "a", 10 * kSecond_ns, {{4 * kSecond_ns, {5.0, 2.0, 0.0}}, {5 * kSecond_ns, {6.0, 4.0, 0.0}}});
   ASSERT_TRUE(covers.ok()) << covers.status();
-  EXPECT_TRUE(*covers);
+  EXPECT_TRUE(covers->covers_doubt);
   const std::vector<Point2> places = Places();
   ASSERT_EQ(places.size(), 10u);
   EXPECT_NEAR(places[3].y_m, 2.0, 1e-9);
@@ -122,8 +122,21 @@ TEST_F(WayHistoryTest, ACorrectionOfAnEarlierDoubtLeavesThePresentOne) {
   const auto covers =
       history_.Correct("a", 30 * kSecond_ns, {{2 * kSecond_ns, {1.0, 2.0, 0.0}}}, present);
   ASSERT_TRUE(covers.ok()) << covers.status();
-  EXPECT_FALSE(*covers);
+  EXPECT_FALSE(covers->covers_doubt);
   EXPECT_EQ(Places().size(), 25u);
+}
+
+TEST_F(WayHistoryTest, TellsByHowMuchAPoseWasMovedAtMost) {
+  for (int t = 0; t < 4; ++t) Scan(1.0 + t, t * kSecond_ns);
+  const auto moved_m = [this](std::vector<PoseAnchor> anchors) {
+    const auto corrected = history_.Correct("a", 2 * kSecond_ns, anchors);
+    EXPECT_TRUE(corrected.ok()) << corrected.status();
+    return corrected->moved_m;
+  };
+  EXPECT_EQ(moved_m({{kSecond_ns, {2.0, 1.5, 0.0}}}), 0.0);
+  EXPECT_NEAR(moved_m({{0, {1.0, 1.5, 0.0}}, {2 * kSecond_ns, {3.0, 1.7, 0.0}}}), 0.2, 1e-9);
+  // About its place at the start: farthest off 2 s later, and what it saw turns with it.
+  EXPECT_NEAR(moved_m({{0, {1.0, 1.5, 0.01}}, {2 * kSecond_ns, {3.0, 1.7, 0.01}}}), 0.03, 1e-9);
 }
 
 TEST_F(WayHistoryTest, WhatCameAfterTheCorrectionIsRight) {

@@ -365,5 +365,25 @@ TEST(Strategy, OnAnEmptyMapRefusesTheStart) {
   EXPECT_EQ(TryPlan(belief, For("r")).status().code(), absl::StatusCode::kInvalidArgument);
 }
 
+// A corridor that is open in the east, where another robot stands in the way.
+TEST(Strategy, SaysWhomARobotThatStaysWaitsFor) {
+  Belief belief = SmallBelief({"##############################",  //
+                               ".............................?",  //
+                               "S............................?",  //
+                               ".............................?",  //
+                               "##############################"});
+  RobotRecord other = belief.robots.at("r");
+  other.state.id = "s";
+  other.state.pose.x_m += 1.5;
+  belief.robots["s"] = other;
+  const auto plan = TryPlan(belief, For("r"));
+  ASSERT_TRUE(plan.ok()) << plan.status();
+  EXPECT_EQ(plan->end, PlanEnd::kAllGoalsRejected);
+  EXPECT_EQ(plan->waits_for, "s");
+  EXPECT_THAT(plan->explanation, HasSubstr("waits until robot \"s\" has passed"));
+  belief.robots.erase("s");
+  EXPECT_EQ(TryPlan(belief, For("r"))->waits_for, "");
+}
+
 }  // namespace composed_strategy_test
 }  // namespace plumescout

@@ -74,12 +74,30 @@ TEST(Explain, SaysWhyThereIsNoWayOn) {
               HasSubstr("all of 3 goals were rejected."));
   plan.rejected[2].reason = RejectionReason::kTraffic;
   EXPECT_THAT(Explain(plan, By(SelectionRule::kLeastCost)),
-              HasSubstr("rejected; other robots are to pass first."));
+              HasSubstr("rejected; waits until other robots have passed."));
+  plan.waits_for = "b";
+  EXPECT_THAT(Explain(plan, By(SelectionRule::kLeastCost)),
+              HasSubstr("rejected; waits until robot \"b\" has passed."));
 }
 
 TEST(Explain, SaysWhenNoFrontierIsLeft) {
   EXPECT_THAT(Explain(ChosenPlan(GoalKind::kRandomFreeSpace), By(SelectionRule::kLeastCost)),
               HasSubstr("a random free place, for no frontier is left"));
+}
+
+TEST(Explain, SaysWhomTheRobotWaitsFor) {
+  Plan plan = ChosenPlan(GoalKind::kGasFrontier);
+  plan.trajectory.waypoints.resize(3);
+  plan.trajectory.waypoints[0].dwell_s = 2.5;
+  EXPECT_THAT(Explain(plan, By(SelectionRule::kLeastCost)),
+              HasSubstr("; waits 2.5 s until other robots have passed"));
+  plan.waits_for = "b";
+  EXPECT_THAT(Explain(plan, By(SelectionRule::kLeastCost)),
+              HasSubstr("; waits 2.5 s until robot \"b\" has passed"));
+  plan.trajectory.waypoints[0].dwell_s = 0.0;
+  plan.trajectory.waypoints[1] = {{1.0, 2.0, 0.0}, 1.0, 2.5};
+  EXPECT_THAT(Explain(plan, By(SelectionRule::kLeastCost)),
+              HasSubstr("; waits 2.5 s at (1.0, 2.0) until robot \"b\" has passed"));
 }
 
 TEST(Explain, SaysThatReadingsTellMuchThere) {

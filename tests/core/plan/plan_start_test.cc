@@ -5,13 +5,19 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <functional>
+#include <string>
+
 #include "core/plan/plan_seed.h"
+#include "core/types/error_reason.h"
 #include "tests/support/strategy_case.h"
 
 namespace plumescout {
 namespace plan_start_test {
 
+using ::testing::AllOf;
 using ::testing::ElementsAre;
+using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
 const testing::GridArt kRoom = {".....",  //
@@ -75,6 +81,76 @@ TEST(BeginPlan, RefusesUnknownRobotsAndThoseWithoutAPlace) {
   EXPECT_TRUE(absl::IsNotFound(status("nobody")));
   belief.robots["blind"].state.id = "blind";
   EXPECT_TRUE(absl::IsFailedPrecondition(status("blind")));
+}
+
+// Robot "r" in a long room, and "s" so far to the east of it, whose pose came later.
+Belief TwoRobots(double apart_m) {
+  Belief belief = testing::SmallBelief({"S............................."});
+  RobotRecord& r = belief.robots["r"];
+  r.state.radius_m = 0.2;
+  r.pose_ns = 1;
+  RobotRecord s = r;
+  s.state.id = "s";
+  s.state.pose.x_m += apart_m;
+  s.pose_ns = 2;
+  belief.robots["s"] = s;
+  return belief;
+}
+
+absl::Status BeginStatus(const Belief& belief, const PlanRequest& request,
+                         const PlanningOptions& options = {}) {
+  return BeginPlan(belief, request, options).status();
+}
+
+TEST(BeginPlan, RefusesTheLaterOfTwoRobotsAtOnePlace) {
+  const Belief belief = TwoRobots(0.15);
+  const absl::Status later = BeginStatus(belief, testing::For("s"));
+  EXPECT_TRUE(absl::IsFailedPrecondition(later));
+  EXPECT_EQ(ErrorReason(later), reason::kStartInRobot);
+  EXPECT_THAT(std::string(later.message()), AllOf(HasSubstr("robot \"r\""), HasSubstr("0.15 m")));
+  EXPECT_TRUE(BeginStatus(belief, testing::For("r")).ok()) << "one drives on";
+  PlanRequest ahead = testing::For("s");
+  ahead.start = belief.robots.at("s").state.pose;
+  EXPECT_TRUE(absl::IsFailedPrecondition(BeginStatus(belief, ahead)));
+  ahead.start->x_m += 0.3;
+  EXPECT_TRUE(BeginStatus(belief, ahead).ok());
+  EXPECT_TRUE(BeginStatus(TwoRobots(0.25), testing::For("s")).ok()) << "poses err by so much";
+  PlanningOptions alone;
+  alone.yield_to_robots = false;
+  EXPECT_TRUE(BeginStatus(belief, testing::For("s"), alone).ok());
+}
+
+TEST(BeginPlan, OfTwoPosesOfOneTimeThatOfTheLaterNameIsRefused) {
+  Belief belief = TwoRobots(0.0);
+  belief.robots["r"].pose_ns = 2;
+  EXPECT_TRUE(absl::IsFailedPrecondition(BeginStatus(belief, testing::For("s"))));
+  EXPECT_TRUE(BeginStatus(belief, testing::For("r")).ok());
+}
+
+TEST(BeginPlan, RefusesAGivenStartInAnotherRobotFarOff) {
+  const Belief belief = TwoRobots(2.5);
+  PlanRequest request = testing::For("r");
+  request.start = belief.robots.at("s").state.pose;
+  const absl::Status status = BeginStatus(belief, request);
+  EXPECT_TRUE(absl::IsInvalidArgument(status));
+  EXPECT_EQ(ErrorReason(status), reason::kStartInRobot);
+  EXPECT_THAT(std::string(status.message()), AllOf(HasSubstr("start = ("), HasSubstr("\"s\"")));
+  request.start->x_m -= 0.3;
+  EXPECT_TRUE(BeginStatus(belief, request).ok());
+}
+
+TEST(BeginPlan, PassesOverRobotsOfWhichNobodyKnowsWhereTheyAre) {
+  const auto begins = [](const std::function<void(Belief&)>& change) {
+    Belief belief = TwoRobots(0.0);
+    change(belief);
+    return BeginStatus(belief, testing::For("s")).ok();
+  };
+  EXPECT_FALSE(begins([](Belief&) {}));
+  EXPECT_TRUE(begins([](Belief& b) { b.robots["r"].state.silent = true; }));
+  EXPECT_TRUE(begins([](Belief& b) { b.robots["r"].state.has_pose = false; }));
+  EXPECT_TRUE(begins([](Belief& b) { b.robots["r"].state.frame_suspect = true; }));
+  EXPECT_TRUE(begins([](Belief& b) { b.robots["s"].state.frame_suspect = true; }));
+  EXPECT_TRUE(begins([](Belief& b) { b.robots["r"].state.frame.position_stddev_m = 0.1; }));
 }
 
 TEST(PutBefore, CountsTheWayOutAsLength) {

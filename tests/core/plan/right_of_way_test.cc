@@ -78,6 +78,31 @@ TEST(YieldToRobots, RejectsAWayThatARobotStandsOn) {
   EXPECT_THAT(plan.rejected[0].detail, ::testing::HasSubstr("robot \"b\" at (2."));
 }
 
+TEST(YieldToRobots, NamesWhomItWaitsForWhenNothingIsLeft) {
+  Belief belief = CrossedBelief();
+  belief.robots["b"] = At("b", {3.0, 0.1});
+  belief.robots["c"] = At("c", {-3.0, 0.1});
+  Plan plan = PlanOf({Way({5.0, 0.0}), Way({-4.0, 0.0})});
+  YieldToRobots(belief, 0.0, {}, plan);
+  EXPECT_EQ(plan.waits_for, "c") << "in the way of what is the sooner reached";
+  Plan other = PlanOf({Way({5.0, 0.0}), Way({0.0, 4.0})});
+  YieldToRobots(belief, 0.0, {}, other);
+  EXPECT_EQ(other.waits_for, "");
+}
+
+TEST(NoteWhomItWaitsFor, IsWhoWouldBeMetByLeavingAtOnce) {
+  const Belief belief = CrossedBelief();
+  Plan plan = PlanOf({Way({5.0, 0.0}), Way({-5.0, 0.0})});
+  YieldToRobots(belief, 0.0, {}, plan);
+  ASSERT_EQ(plan.candidates.size(), 2u);
+  plan.chosen = 1;
+  NoteWhomItWaitsFor(belief, 0.0, {}, plan);
+  EXPECT_EQ(plan.waits_for, "");
+  plan.chosen = 0;
+  NoteWhomItWaitsFor(belief, 0.0, {}, plan);
+  EXPECT_EQ(plan.waits_for, "b");
+}
+
 TEST(FindWaits, AreThoseOfTheCandidatesOneByOne) {
   const PlanningOptions options;
   Plan plan = PlanOf({Way({5.0, 0.0}), Way({-5.0, 0.0}), Way({3.0, 0.0})});

@@ -68,6 +68,13 @@ TEST(ObjectiveOptions, AllButACompleteMapNeedAThreshold) {
   EXPECT_TRUE(Validate(options).ok());
 }
 
+TEST(MissionOptionsTest, RefuseValuesOutsideTheirRanges) {
+  ExpectRefused<MissionOptions>({
+      {"misleading_move_m", &MissionOptions::misleading_move_m, {-0.1, 10.1}},
+      {"max_robot_speed_mps", &MissionOptions::max_robot_speed_mps, {-1.0, 1001.0}},
+  });
+}
+
 TEST(OccupancyOptions, RefuseValuesOutsideTheirRanges) {
   ExpectRefused<OccupancyOptions>({
       {"resolution_m", &OccupancyOptions::resolution_m, {0.0, -0.1, 50.1}},

@@ -77,6 +77,8 @@ MissionOptions Unlike() {
   options.gas.field_reach_m = 12.0;
   options.stamp_by_arrival = true;
   options.keep_scans = false;
+  options.misleading_move_m = 0.25;
+  options.max_robot_speed_mps = 7.5;
   options.gas.audit_period_epochs = 7;
   options.gas.scale = GasScale::kSquareRoot;
   options.gas.estimate_noise = false;
@@ -108,6 +110,8 @@ TEST(OptionsTest, OptionsSurviveTheRoundTrip) {
   EXPECT_EQ(back->gas.field_reach_m, 12.0);
   EXPECT_TRUE(back->stamp_by_arrival);
   EXPECT_FALSE(back->keep_scans);
+  EXPECT_EQ(back->misleading_move_m, 0.25);
+  EXPECT_EQ(back->max_robot_speed_mps, 7.5);
   EXPECT_EQ(back->gas.audit_period_epochs, 7);
   EXPECT_EQ(back->gas.scale, GasScale::kSquareRoot);
   EXPECT_FALSE(back->gas.estimate_noise);
@@ -298,6 +302,23 @@ TEST(OptionsTest, MoreSamplesThanCandidatesAreNamedAsOnTheWire) {
 TEST(OptionsTest, JournalsThatDoNotNameKeptScansKeptNone) {
   EXPECT_FALSE(FromProto(v1::MissionOptions(), RecordedDefaults(), "options")->keep_scans);
   EXPECT_TRUE(FromProto(ToProto(MissionOptions()), RecordedDefaults(), "options")->keep_scans);
+}
+
+// Else robots would be doubted while maps were rebuilt, which events that follow know nothing of.
+TEST(OptionsTest, JournalsThatDoNotNameMisleadingMovesWereMisledByAny) {
+  const auto of = [](const v1::MissionOptions& proto) {
+    return FromProto(proto, RecordedDefaults(), "options")->misleading_move_m;
+  };
+  EXPECT_EQ(of(v1::MissionOptions()), 0.0);
+  EXPECT_EQ(of(ToProto(MissionOptions())), MissionOptions().misleading_move_m);
+}
+
+TEST(OptionsTest, JournalsThatDoNotNameASpeedTookPosesFromAnywhere) {
+  const auto of = [](const v1::MissionOptions& proto) {
+    return FromProto(proto, RecordedDefaults(), "options")->max_robot_speed_mps;
+  };
+  EXPECT_EQ(of(v1::MissionOptions()), 0.0);
+  EXPECT_EQ(of(ToProto(MissionOptions())), MissionOptions().max_robot_speed_mps);
 }
 
 TEST(OptionsTest, JournalsThatDoNotNameTheNoiseOfMapsDidNotEstimateIt) {

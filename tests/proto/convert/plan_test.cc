@@ -45,6 +45,7 @@ Plan TestPlan() {
   plan.effort = {300, 250, 1000, 1, 4};
   plan.goal_kept = true;
   plan.replan_after_s = 1.5;
+  plan.waits_for = "r2";
   plan.field_flat = true;
   plan.start_escaped = true;
   plan.explanation = "to the nearest plume";
@@ -55,6 +56,7 @@ TEST(PlanTest, PlanSurvivesTheRoundTrip) {
   const v1::Plan proto = ToProto(TestPlan(), "hall");
   EXPECT_EQ(proto.name(), "missions/hall/plans/5");
   EXPECT_EQ(proto.robot(), "missions/hall/robots/r1");
+  EXPECT_EQ(proto.waits_for(), "missions/hall/robots/r2");
   const auto back = FromProto(proto, "plan");
   ASSERT_TRUE(back.ok()) << back.status();
   EXPECT_EQ(*back, TestPlan());
@@ -114,6 +116,7 @@ TEST(PlanTest, WhatARobotWouldFollowIsChecked) {
        [](auto& p) { p.mutable_trajectory()->mutable_waypoints(1)->set_speed_mps(-1.0); }},
       {"plan.trajectory.duration_s", [](auto& p) { p.mutable_trajectory()->set_duration_s(kNan); }},
       {"plan.replan_after_s", [](auto& p) { p.set_replan_after_s(-1.0); }},
+      {"plan.waits_for", [](auto& p) { p.set_waits_for("r2"); }},
   };
   for (const BadField& bad : kBad) {
     v1::Plan proto = ToProto(TestPlan(), "hall");
@@ -145,7 +148,9 @@ TEST(PlanTest, WhatACandidateHasNotIsAbsent) {
   plan.candidates[0].unseen_share = 1.0;
   EXPECT_FALSE(ToProto(plan, "hall").candidates(0).has_unseen_share());
   plan.replan_after_s = 0.0;
+  plan.waits_for.clear();
   EXPECT_FALSE(ToProto(plan, "hall").has_replan_after_s());
+  EXPECT_EQ(ToProto(plan, "hall").waits_for(), "");
   EXPECT_EQ(FromProto(ToProto(plan, "hall"), "plan").value(), plan);
 }
 

@@ -118,7 +118,9 @@ TEST_F(MapServiceTest, EveryReadingIsCountedOnTheMap) {
   v1::ObservationBatch batch;
   const auto add = [&](Pose2 pose, GasReading reading) {
     ++sequence;
-    *batch.add_observations() = ToProto(Observation{sequence, sequence * 1'000'000, pose, reading});
+    // Half a minute apart, in which a robot comes from anywhere to anywhere.
+    *batch.add_observations() =
+        ToProto(Observation{sequence, sequence * 30'000'000'000, pose, reading});
   };
   add(middle, {1.0, 0.0});
   add(middle, {1.0, 1e12});

@@ -28,9 +28,8 @@ constexpr int kScans = 4;
 using NextBestResponse = absl::StatusOr<v1::NextBestTrajectoryResponse>;
 
 // Scans of a room whose far walls are out of sight, as many as it takes to trust them.
-v1::ObservationBatch CornerScans() {
+v1::ObservationBatch CornerScans(const Pose2& pose = {2.0, 1.5, 0.0}) {
   constexpr double kSide_m = 30.0;
-  const Pose2 pose{2.0, 1.5, 0.0};
   v1::ObservationBatch batch;
   for (std::int64_t sequence = 1; sequence <= kScans; ++sequence) {
     *batch.add_observations() =
@@ -246,6 +245,30 @@ TEST_F(PlanningServiceTest, AStartOffTheMapIsRefusedWithItsReason) {
   Start();
   EXPECT_THAT(NextBestWith([](auto& request) { request.mutable_start()->set_x_m(500.0); }).status(),
               Refuses(absl::StatusCode::kInvalidArgument, "START_OUTSIDE_MAP"));
+}
+
+TEST_F(PlanningServiceTest, AStartInAnotherRobotIsRefusedWithItsReason) {
+  Start();
+  const Pose2 away{6.0, 1.5, 0.0};
+  const std::int64_t lease = Register("r2")->lease_token();
+  ASSERT_TRUE(Ingest("missions/hall/robots/r2", lease, CornerScans(away)).ok());
+  const auto refused =
+      NextBestWith([&](auto& request) { *request.mutable_start() = ToProto(away); });
+  EXPECT_THAT(refused.status(), Refuses(absl::StatusCode::kInvalidArgument, "START_IN_ROBOT"));
+  EXPECT_THAT(refused.status(), RefusesField("start"));
+  EXPECT_TRUE(NextBest(Order()).ok());
+}
+
+TEST_F(PlanningServiceTest, OfTwoRobotsAtOnePlaceOneIsRefusedPlans) {
+  Start();
+  const std::int64_t lease = Register("r2")->lease_token();
+  ASSERT_TRUE(Ingest("missions/hall/robots/r2", lease, CornerScans()).ok());
+  const auto refused = NextBestWith([&](auto& request) {
+    request.set_robot("missions/hall/robots/r2");
+    request.set_lease_token(lease);
+  });
+  EXPECT_THAT(refused.status(), Refuses(kPrecondition, "START_IN_ROBOT"));
+  EXPECT_TRUE(NextBest(Order()).ok());
 }
 
 TEST_F(PlanningServiceTest, ABudgetForNoPlanAtAllIsRefusedWithItsReason) {
