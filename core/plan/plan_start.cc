@@ -3,6 +3,7 @@
 #include "core/plan/plan_start.h"
 
 #include <cstddef>
+#include <cstdint>
 
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_format.h"
@@ -23,8 +24,12 @@ bool IsInside(Point2 place, const RobotState& self, const RobotState& other) {
   return Distance_m(place, other.pose.position()) < kDeepShare * radii_m - doubt_m;
 }
 
-bool IsHeard(const RobotState& robot) {
-  return robot.has_pose && !robot.silent && !robot.frame_suspect;
+// Whether its latest pose tells where it is. Who follows a plan unheard has driven on since.
+bool IsWhereItSaid(const RobotRecord& robot, std::int64_t now_ns) {
+  constexpr std::int64_t kPosesCome_ns = 1'000'000'000;
+  const bool drives_on = robot.live_trajectory != nullptr && now_ns - robot.pose_ns > kPosesCome_ns;
+  const RobotState& state = robot.state;
+  return state.has_pose && !state.silent && !state.frame_suspect && !drives_on;
 }
 
 // Of two the later, so that the other drives on and neither stands for ever.
@@ -42,7 +47,7 @@ absl::Status CheckApart(const Belief& belief, const PlanRequest& request,
       robot.state.has_pose && Distance_m(place, robot.state.pose.position()) <= kStartsAhead_m;
   if (is_own && robot.state.frame_suspect) return absl::OkStatus();
   for (const auto& [id, other] : belief.robots) {
-    if (id == request.robot || !IsHeard(other.state)) continue;
+    if (id == request.robot || !IsWhereItSaid(other, belief.sample_time_ns)) continue;
     if (!IsInside(place, robot.state, other.state)) continue;
     if (is_own && !CameLater(robot, other)) continue;
     return TypedError(

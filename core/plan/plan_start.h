@@ -26,7 +26,7 @@ struct PlanStart {
 // Errors: kNotFound if the robot is unknown; else as StartPose; and, if plans yield to robots,
 // START_IN_ROBOT where another one is heard to be: kInvalidArgument for a start that is given and
 // far from the robot, kFailedPrecondition for its own place, if its pose is later than the other's.
-// Robots that lost their place are passed over. Cost: as Depart, O(robots).
+// Robots that lost their place, or drive on unheard, are passed over. Cost: as Depart, O(robots).
 absl::StatusOr<PlanStart> BeginPlan(const Belief& belief, const PlanRequest& request,
                                     const PlanningOptions& options);
 

@@ -20,10 +20,10 @@
 namespace plumescout {
 namespace mission_corrections_test {
 
-using ::testing::HasSubstr;
 using support::JumpAbout;
 using support::kSecond_ns;
 using support::RoomFrom;
+using ::testing::HasSubstr;
 
 class MissionCorrectionsTest : public support::CorrectedMission {
  protected:

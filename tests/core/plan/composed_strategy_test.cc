@@ -218,6 +218,7 @@ TEST(Strategy, DerivesAnotherSeedForEveryMissionRobotAndPlan) {
   note_seed("r");
   belief.robots["s"] = belief.robots["r"];
   belief.robots["s"].state.id = "s";
+  belief.robots["s"].state.pose.x_m -= 0.25;  // beside it, not in it
   note_seed("s");
   MissionOptions mission = *belief.options;
   mission.seed = 2;

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <functional>
+#include <memory>
 #include <string>
 
 #include "core/plan/plan_seed.h"
@@ -151,6 +152,12 @@ TEST(BeginPlan, PassesOverRobotsOfWhichNobodyKnowsWhereTheyAre) {
   EXPECT_TRUE(begins([](Belief& b) { b.robots["r"].state.frame_suspect = true; }));
   EXPECT_TRUE(begins([](Belief& b) { b.robots["s"].state.frame_suspect = true; }));
   EXPECT_TRUE(begins([](Belief& b) { b.robots["r"].state.frame.position_stddev_m = 0.1; }));
+  const auto unheard = [](Belief& b) { b.sample_time_ns = 5'000'000'000; };
+  EXPECT_FALSE(begins(unheard)) << "it stands there";
+  EXPECT_TRUE(begins([&](Belief& b) {
+    unheard(b);
+    b.robots["r"].live_trajectory = std::make_shared<const Trajectory>();
+  })) << "it has driven on";
 }
 
 TEST(PutBefore, CountsTheWayOutAsLength) {
