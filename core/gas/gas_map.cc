@@ -197,6 +197,7 @@ absl::Status GasMap::BeginEpoch(std::int64_t time_ns) {
     start.aged.push_back({index, aged});
   }
   epoch_ = std::make_shared<GasEpoch>(std::move(start));
+  published_ = false;  // readings of like age may have been merged
   return absl::OkStatus();
 }
 

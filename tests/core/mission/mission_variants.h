@@ -14,9 +14,13 @@ struct MissionVariant {
   MissionOptions options;
 };
 
-// Missions that differ in what they keep, and in how they make a field of readings.
+// Missions that differ in what they keep, and in how they make a field of readings. Their cells are
+// large, so that they are quickly tried.
 inline std::vector<MissionVariant> MissionVariants() {
-  MissionOptions several;  // whose sensors may have offsets
+  MissionOptions plain;
+  plain.occupancy.resolution_m = 0.2;
+
+  MissionOptions several = plain;  // whose sensors may have offsets
   several.gas_species = {{"methane", {}, {}, {}, {}}, {"hydrogen-sulfide", 8.0, 20.0, 0.01, 1.0}};
   several.robot_silence_s = 20.0;
   several.max_robot_count = 3;
@@ -44,8 +48,9 @@ inline std::vector<MissionVariant> MissionVariants() {
   MissionOptions published;
   published.gas = PublishedGasOptions();
   published.occupancy = PublishedOccupancyOptions();
+  published.occupancy.resolution_m = 0.2;
 
-  return {{"default", MissionOptions()},
+  return {{"default", plain},
           {"several gases", several},
           {"everything", everything},
           {"ageing", ageing},

@@ -47,7 +47,7 @@ class RandomRobots {
     if (rng_.Below(30) == 0) observation.sample_time_ns -= kSecond_ns;
     observation.pose = InRobot(known.frame, Told(teller));
     FillIn(teller, known.frame, observation);
-    if (rng_.Below(20) == 0) Spoil(observation);
+    if (rng_.Below(12) == 0) Spoil(observation);
     teller.way.push_back({observation.sample_time_ns, teller.truth});
     if (teller.way.size() > kLongestWay) teller.way.erase(teller.way.begin());
     return observation;

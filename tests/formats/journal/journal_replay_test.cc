@@ -23,14 +23,14 @@
 #include "proto/convert/plan.h"
 #include "proto/convert/robot.h"
 #include "proto/convert/robot_frame.h"
+#include "tests/core/mission/eventful_mission.h"
 #include "tests/core/mission/mission_tally.h"
 #include "tests/core/mission/mission_variants.h"
-#include "tests/core/mission/random_mission.h"
 
 namespace plumescout {
 namespace journal_replay_test {
 
-constexpr int kEvents = 200;
+constexpr int kEvents = 300;
 
 absl::StatusOr<EventBody> OverWire(const ObservationReceived& received) {
   auto observation = FromProto(ToProto(received.observation), "observation");
@@ -73,7 +73,7 @@ absl::StatusOr<EventBody> SentAgain(const EventBody& body) {
 // Random events as they come over the wire, which refuses some that no mission would take.
 std::vector<Event> Record(std::uint64_t seed, Mission& mission, MissionTally& tally) {
   std::vector<Event> events;
-  RandomMission random(seed, 5.0, 4.0);
+  EventfulMission random(seed, 5.0, 4.0);
   for (int i = 0; i < kEvents; ++i) {
     const auto body = SentAgain(random.Next(mission));
     if (!body.ok()) continue;
