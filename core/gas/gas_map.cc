@@ -69,6 +69,7 @@ void GasMap::AddFrom(const ReadingSource& source, std::int64_t time_ns, Point2 p
                      const GasReading& reading) {
   inputs_.AddFrom(source, time_ns, position, reading);
   stale_ = true;
+  published_ = false;  // sensors may have met: not for those alone who look only from now on
 }
 
 absl::Status GasMap::Refresh(const Grid<CellState>& states, std::int64_t time_ns) {
@@ -196,6 +197,7 @@ absl::Status GasMap::BeginEpoch(std::int64_t time_ns) {
     start.aged.push_back({index, aged});
   }
   epoch_ = std::make_shared<GasEpoch>(std::move(start));
+  published_ = false;  // readings of like age may have been merged
   return absl::OkStatus();
 }
 

@@ -76,9 +76,9 @@ class GasMap {
   // A reading that is not finite, or beyond 1e9 ppm, is counted and waits for ever.
   // `is_part`: as of ReadingStore::Add.
   void Add(std::int64_t time_ns, Point2 position, const GasReading& reading, bool is_part = false);
-  // The same of a sensor in a mission in which some have unknown offsets. From the refresh after it
-  // has met others often enough its offset is estimated, and what readers see is the field with
-  // that as a further unknown. REQUIRES: options without ageing.
+  // The same of a sensor in a mission in which some have unknown offsets. Once it has met others
+  // often enough, also since the last refresh, its offset is estimated from what that placed, and
+  // what readers see is the field with that as a further unknown. REQUIRES: options without ageing.
   void AddFrom(const ReadingSource& source, std::int64_t time_ns, Point2 position,
                const GasReading& reading);
   // Whether it has a free cell, or may wait for one; see ReadingStore::HasRoomFor.

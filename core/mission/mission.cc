@@ -242,6 +242,7 @@ absl::StatusOr<Applied> Mission::Change(const ProgressReported& report) {
 absl::StatusOr<Applied> Mission::Change(const EpochBegun& begun) {
   PLUMESCOUT_RETURN_IF_ERROR(CheckTime(begun.time_ns));
   PLUMESCOUT_RETURN_IF_ERROR(gas_.BeginEpoch(begun.time_ns));
+  gas_changed_since_snapshot_ = true;  // what is published of errors
   return Applied{};
 }
 

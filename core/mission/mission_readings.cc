@@ -78,6 +78,7 @@ absl::Status Mission::AddReading(std::size_t species, const ReadingSource& sourc
   PLUMESCOUT_RETURN_IF_ERROR(CheckRoom(place, kReadingSiteBytes + kReadingBucketBytes));
   if (fleet_.has_offsets() && !is_part) {
     gas.AddFrom(source, time_ns, place, reading);
+    gas_changed_since_snapshot_ = true;
   } else {
     gas.Add(time_ns, place, reading, is_part);
   }

@@ -110,7 +110,7 @@ class RandomEvents {
   RobotRegistered MakeRegistration() {
     return {Text(), Real(), Int64(), Int64(), MakeFrame(), List([this] { return MakeSensor(); })};
   }
-  GasSensor MakeSensor() { return {Text(), MakePoint(), Real(), Real(), Text()}; }
+  GasSensor MakeSensor() { return {Text(), MakePoint(), Real(), Real(), Text(), Real()}; }
   Observation MakeObservation() {
     Observation observation{Int64(), Int64(), MakePose(), {}};
     switch (rng_.Below(5)) {
@@ -133,7 +133,7 @@ class RandomEvents {
     }
     return observation;
   }
-  Goal MakeGoal() { return {Choice<GoalKind>(6), {Int(), Int()}, MakePoint(), MakePoint(), Int()}; }
+  Goal MakeGoal() { return {Choice<GoalKind>(7), {Int(), Int()}, MakePoint(), MakePoint(), Int()}; }
   Candidate MakeCandidate() {
     return {MakeGoal(),
             List([this] { return MakePoint(); }),
@@ -162,7 +162,7 @@ class RandomEvents {
     plan.chosen = Int();
     plan.candidates = List([this] { return MakeCandidate(); });
     plan.rejected = List([this] {
-      return RejectedGoal{MakeGoal(), Choice<RejectionReason>(10), Text()};
+      return RejectedGoal{MakeGoal(), Choice<RejectionReason>(12), Text()};
     });
     plan.trajectory.waypoints = List([this] {
       return Waypoint{MakePose(), Real(), Real(), Real()};

@@ -102,5 +102,26 @@ TEST(GasMapOffsetsTest, WhatReadingsWouldTellIsReckonedFromThatField) {
   EXPECT_LT((*after)[read], 0.9F * map.variance_ppm2()[read]);
 }
 
+// Sensors meet often enough after a refresh that only one of two maps was looked at since.
+TEST(GasMapOffsetsTest, WhoLooksOnChangesNothing) {
+  GasMap seen{PublishedGasOptions()};
+  GasMap unseen{PublishedGasOptions()};
+  for (int i = 0; i < 60; ++i) {
+    for (GasMap* const map : {&seen, &unseen}) {
+      const Point2 place = {0.2 + 0.05 * i, 1.0};
+      map->AddFrom(kReference, i * kSecond_ns, place, {3.0, 0.1});
+      map->AddFrom(kUnsure, i * kSecond_ns, place, {7.0, 0.1});
+      if (i != 15) continue;
+      ASSERT_TRUE(map->Refresh(Hall(), i * kSecond_ns).ok());
+    }
+    seen.mean_ppm();
+  }
+  ASSERT_TRUE(seen.sensor_offsets()[0].estimated);
+  EXPECT_EQ(seen.sensor_offsets(), unseen.sensor_offsets());
+  EXPECT_TRUE(support::SameBytes(seen.mean_ppm(), unseen.mean_ppm()));
+  EXPECT_TRUE(support::SameBytes(seen.variance_ppm2(), unseen.variance_ppm2()));
+  EXPECT_EQ(seen.quality(), unseen.quality());
+}
+
 }  // namespace gas_map_offsets_test
 }  // namespace plumescout

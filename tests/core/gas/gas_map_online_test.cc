@@ -365,5 +365,26 @@ TEST(GasMapOnlineTest, GasCellsNeedNotDivideTheMap) {
   EXPECT_EQ(map.counters(), (GasCounters{.readings = 3, .in_posterior = 3}));
 }
 
+// An epoch merges readings of like age, and what they say of errors changes with that.
+TEST(GasMapOnlineTest, WhoLooksBeforeAnEpochChangesNothing) {
+  GasOptions options;
+  options.ageing_half_life_s = 10.0;
+  GasMap seen(options, 0.5);
+  GasMap unseen(options, 0.5);
+  for (GasMap* const map : {&seen, &unseen}) {
+    Rng rng(5);
+    for (int i = 0; i < 200; ++i) {
+      const Point2 place = {rng.Uniform(0.1, 4.9), rng.Uniform(0.1, 4.9)};
+      map->Add(i * 50'000'000, place, {rng.Uniform(0.0, 30.0), 0.0});
+    }
+    const Grid<CellState> states(GridGeometry{0.0, 0.0, 0.5, 10, 10}, CellState::kFree);
+    ASSERT_TRUE(map->Refresh(states, 10'000'000'000).ok());
+    if (map == &seen) map->quality();
+    ASSERT_TRUE(map->BeginEpoch(100'000'000'000).ok());
+  }
+  EXPECT_EQ(seen.quality(), unseen.quality());
+  EXPECT_TRUE(support::SameBytes(seen.error_variance_ppm2(), unseen.error_variance_ppm2()));
+}
+
 }  // namespace gas_map_online_test
 }  // namespace plumescout

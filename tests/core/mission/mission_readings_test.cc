@@ -232,5 +232,30 @@ TEST(MissionReadingsTest, WhatSaysNothingOfWhereIsNoPlaceOnTheWay) {
   EXPECT_TRUE(support::SameBytes(*told->sampled, *expected->sampled));
 }
 
+// Two sensors at one place meet often enough after the last refresh.
+TEST(MissionReadingsTest, WhoLooksOnChangesNoOffset) {
+  Drive seen;
+  Drive unseen;
+  for (Drive* const drive : {&seen, &unseen}) {
+    GasSensor unsure{"b", {}};
+    unsure.offset_stddev_ppm = 2.0;
+    drive->Register({{"a", {}}, unsure});
+    for (int tick = 0; tick <= 40; ++tick) {
+      if (tick <= 10) drive->See(tick);
+      drive->Send(tick, GasReading{5.0, 0.0, 0});
+      drive->Send(tick, GasReading{9.0, 0.0, 1});
+      if (tick == 10) drive->Refresh(tick);
+      if (drive == &seen) drive->mission->Snapshot();
+    }
+  }
+  EXPECT_EQ(seen.mission->Digest(), unseen.mission->Digest());
+  const auto a = seen.mission->Snapshot();
+  const auto b = unseen.mission->Snapshot();
+  ASSERT_TRUE(a->sensor_offsets.at(0).estimated);
+  EXPECT_EQ(a->sensor_offsets, b->sensor_offsets);
+  EXPECT_TRUE(support::SameBytes(*a->gas_mean_ppm, *b->gas_mean_ppm));
+  EXPECT_TRUE(support::SameBytes(*a->gas_variance_ppm2, *b->gas_variance_ppm2));
+}
+
 }  // namespace mission_readings_test
 }  // namespace plumescout
