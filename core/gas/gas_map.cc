@@ -77,10 +77,8 @@ absl::Status GasMap::Refresh(const Grid<CellState>& states, std::int64_t time_ns
   stale_ = false;
   replaced_ = false;
   ++quality_.refreshes;
-  if (inputs_.rect().empty()) {
-    published_ = false;
-    return absl::OkStatus();
-  }
+  published_ = false;
+  if (inputs_.rect().empty()) return absl::OkStatus();
   const bool usable = engine_ != nullptr && !has_failed_ && HasRoom(lattice_, inputs_.rect(), 0);
   if (!usable) return Conclude(Rebuild(time_ns), time_ns);
   const Changes changes = ChangesIn(changed);

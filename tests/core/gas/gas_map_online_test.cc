@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdint>
 #include <cstring>
 #include <memory>
 #include <vector>
@@ -375,7 +376,7 @@ TEST(GasMapOnlineTest, WhoLooksBeforeAnEpochChangesNothing) {
     Rng rng(5);
     for (int i = 0; i < 200; ++i) {
       const Point2 place = {rng.Uniform(0.1, 4.9), rng.Uniform(0.1, 4.9)};
-      map->Add(i * 50'000'000, place, {rng.Uniform(0.0, 30.0), 0.0});
+      map->Add(std::int64_t{50'000'000} * i, place, {rng.Uniform(0.0, 30.0), 0.0});
     }
     const Grid<CellState> states(GridGeometry{0.0, 0.0, 0.5, 10, 10}, CellState::kFree);
     ASSERT_TRUE(map->Refresh(states, 10'000'000'000).ok());

@@ -57,7 +57,7 @@ class EventfulMission {
         return PosteriorRefreshed{Now_ns()};
       case 8:
       case 9:
-        return Order(mission, robot);
+        return Order(mission, rng_.Below(5) == 0 ? "d" : robot);
       case 10:
         robots_.Pass(static_cast<std::int64_t>(rng_.Below(40)) * kSecond_ns);  // others fall silent
         [[fallthrough]];
@@ -105,12 +105,9 @@ class EventfulMission {
         joining.log_epoch = kLogEpochEnd;
         break;
       case 2:
-        joining.radius_m = 0.0;
-        break;
-      case 3:
         joining.frame.position_stddev_m = -1.0;
         break;
-      case 4:
+      case 3:
         joining.sensors.resize(2, {"same", {}});
         joining.sensors[0] = joining.sensors[1];
         break;
@@ -158,13 +155,14 @@ class EventfulMission {
   KeepOutChanged ChangeAreas(const Mission& mission) {
     KeepOutChanged change;
     const std::vector<Polygon>& areas = mission.options().keep_out;
-    if (!areas.empty() && rng_.Below(2) == 0) change.deleted.push_back(areas.front().name);
+    if (!areas.empty() && rng_.Below(3) == 0) change.deleted.push_back(areas.front().name);
     if (rng_.Below(8) == 0) change.deleted.push_back("elsewhere");
     for (std::uint64_t i = rng_.Below(3); i > 0; --i) {
       const Point2 place = robots_.Place();
       change.added.push_back({{place, {place.x_m + 0.7, place.y_m}, {place.x_m, place.y_m + 0.7}},
-                              absl::StrCat("k", rng_.Below(3))});
+                              absl::StrCat("k", rng_.Below(2))});
     }
+    if (!areas.empty() && rng_.Below(4) == 0) change.added = {areas.back()};
     const double far_m = 100.0;
     if (rng_.Below(5) == 0) {
       change.added.push_back(
@@ -194,10 +192,12 @@ class EventfulMission {
     }
     return PlanIssued{plan, rng_.Below(3) == 0};
   }
+  // Often the same one, which another robot may have claimed.
   Goal MakeGoal() {
     Goal goal;
-    goal.kind = rng_.Below(4) == 0 ? GoalKind::kSite : static_cast<GoalKind>(rng_.Below(7));
-    goal.position = rng_.Below(2) == 0 ? Point2{1.0, 1.0} : robots_.Place();
+    const bool is_usual = rng_.Below(2) == 0;
+    goal.kind = is_usual ? GoalKind::kSite : static_cast<GoalKind>(rng_.Below(7));
+    goal.position = is_usual ? Point2{1.0, 1.0} : robots_.Place();
     goal.centroid = goal.position;
     return goal;
   }

@@ -146,7 +146,7 @@ class RandomRobots {
   // What the mission refuses, but for the last ones, which may do.
   void Spoil(Observation& observation) {
     constexpr std::int64_t kLeap_ns = 172'800 * kSecond_ns;  // two days
-    switch (rng_.Below(13)) {
+    switch (rng_.Below(15)) {
       case 0:
         observation.pose.x_m = 1e6;
         return;
