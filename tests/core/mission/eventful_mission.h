@@ -97,7 +97,7 @@ class EventfulMission {
     for (std::uint64_t i = rng_.Below(4); i > 0; --i) {
       joining.sensors.push_back(MakeSensor(mission, joining.sensors.size()));
     }
-    switch (rng_.Below(12)) {
+    switch (rng_.Below(8)) {
       case 0:
         joining.lease_token = 0;
         break;
@@ -156,7 +156,7 @@ class EventfulMission {
     KeepOutChanged change;
     const std::vector<Polygon>& areas = mission.options().keep_out;
     if (!areas.empty() && rng_.Below(3) == 0) change.deleted.push_back(areas.front().name);
-    if (rng_.Below(8) == 0) change.deleted.push_back("elsewhere");
+    if (rng_.Below(4) == 0) change.deleted.push_back("elsewhere");
     for (std::uint64_t i = rng_.Below(3); i > 0; --i) {
       const Point2 place = robots_.Place();
       change.added.push_back({{place, {place.x_m + 0.7, place.y_m}, {place.x_m, place.y_m + 0.7}},

@@ -24,10 +24,10 @@ namespace mission_replay_test {
 
 constexpr double kWidth_m = 5.0;
 constexpr double kHeight_m = 4.0;
-constexpr int kEvents = 220;
+constexpr int kEvents = 300;
 // Events between states that are saved: of any, and of those with poses in doubt.
-constexpr std::size_t kStates = 100;
-constexpr std::size_t kRareStates = 40;
+constexpr std::size_t kStates = 150;
+constexpr std::size_t kRareStates = 80;
 
 // What missions are to come to, beside accepting events of every kind.
 constexpr const char* kRefusals[] = {

@@ -30,7 +30,7 @@
 namespace plumescout {
 namespace journal_replay_test {
 
-constexpr int kEvents = 300;
+constexpr int kEvents = 400;
 
 absl::StatusOr<EventBody> OverWire(const ObservationReceived& received) {
   auto observation = FromProto(ToProto(received.observation), "observation");
