@@ -299,6 +299,7 @@ void GasMap::Publish() const {
   variance_ppm2_ = mean_ppm_;
   error_variance_ppm2_ = has_own_errors() ? mean_ppm_ : Grid<float>();
   noise_ = {};
+  most_told_ppm_ = 0.0;
   what_if_ = nullptr;
   published_ = true;
   sensor_offsets_ = inputs_.sensors().Known();
@@ -316,7 +317,6 @@ void GasMap::Publish() const {
   AddVarianceWithinCells(WithPriorScale(options_, prior_scale_), lattice_.size(),
                          beside.variance_ppm2);
   const UnreadDiscount discount(options_);
-  most_told_ppm_ = 0.0;
   known.ForEachFree([&](std::size_t i, AnchorCell cell) {
     const std::size_t index = lattice_.Index(GasCellOf(cell, inputs_.factor()));
     double deviation = engine_->mean_ppm(index);

@@ -48,5 +48,20 @@ TEST(GasMapReplaceTest, OtherReadingsMakeTheFieldAnew) {
   EXPECT_EQ(gas.counters(), expected.counters());
 }
 
+TEST(GasMapReplaceTest, NothingIsLeftOfAFieldThatSomebodySaw) {
+  Rng rng(12);
+  const Grid<CellState> states = GridFromArt(GridArt{{"......", "......", "......"}, {}});
+  const std::vector<TimedReading> readings = RandomTimedReadings(states, 20, rng);
+  GasMap seen{GasOptions()};
+  GasMap unseen{GasOptions()};
+  for (GasMap* const gas : {&seen, &unseen}) {
+    for (const TimedReading& r : readings) gas->Add(r.time_ns, r.position, r.reading);
+    ASSERT_TRUE(gas->Refresh(states, kSecond_ns).ok());
+    if (gas == &seen) gas->quality();
+    gas->ReplaceReadings(ReadingStore(GasOptions(), 0.0), SensorOffsets(GasOptions(), 0.0));
+  }
+  EXPECT_EQ(seen.quality(), unseen.quality());
+}
+
 }  // namespace gas_map_replace_test
 }  // namespace plumescout

@@ -153,6 +153,9 @@ class EventfulMission {
     }
   }
   KeepOutChanged ChangeAreas(const Mission& mission) {
+    constexpr double kFar_m = 100.0;
+    const Polygon all{{{-kFar_m, -kFar_m}, {kFar_m, -kFar_m}, {0.0, kFar_m}}, "all"};
+    if (rng_.Below(5) == 0) return {{}, {all}};
     KeepOutChanged change;
     const std::vector<Polygon>& areas = mission.options().keep_out;
     if (!areas.empty() && rng_.Below(3) == 0) change.deleted.push_back(areas.front().name);
@@ -163,11 +166,6 @@ class EventfulMission {
                               absl::StrCat("k", rng_.Below(2))});
     }
     if (!areas.empty() && rng_.Below(4) == 0) change.added = {areas.back()};
-    const double far_m = 100.0;
-    if (rng_.Below(5) == 0) {
-      change.added.push_back(
-          {{{-far_m, -far_m}, {far_m, -far_m}, {far_m, far_m}, {-far_m, far_m}}, "all"});
-    }
     if (rng_.Below(6) == 0) change.added.push_back({{{0.0, 0.0}}, "no-area"});
     return change;
   }
