@@ -272,7 +272,7 @@ TEST(SamplingRunLocalTest, FollowsThePlansOfAService) {
   mission.planning.dwell_s = 2.0;
   LocalPlannerClient planner;
   ASSERT_TRUE(planner.CreateMission("study", mission).ok());
-  ScanAround(planner, "study", {4.0, 2.0});
+  ScanAround(planner, "study", {4.0, 3.0});  // not where the other robot is to begin
   SamplingRunOptions options;
   options.participation = {.mission = "study", .robot = "robot-1", .create = std::nullopt};
   options.start = {4.0, 2.0, 0.0};
