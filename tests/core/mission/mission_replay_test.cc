@@ -161,7 +161,10 @@ absl::StatusOr<Applied> Try(const EventBody& body, Recording& recording) {
   if (events % 2 == 0 && mission.rebuild() != nullptr) mission.rebuild()->Recompute();
   const std::uint64_t digest = mission.Digest();
   const std::int64_t bytes = mission.memory_bytes();
-  const std::string state = mission.can_be_saved() ? mission.SaveState().value() : "";
+  // Its digest tells of nearly everything; its whole state, which takes longer, of all.
+  const bool can_be_saved = mission.can_be_saved();
+  const bool saves = events % 3 == 0 && can_be_saved;
+  const std::string state = saves ? mission.SaveState().value() : "";
   const auto applied = mission.Apply(body);
   if (applied.ok()) {
     recording.events.push_back(body);
@@ -170,8 +173,8 @@ absl::StatusOr<Applied> Try(const EventBody& body, Recording& recording) {
   }
   EXPECT_EQ(mission.Digest(), digest) << applied.status();
   EXPECT_EQ(mission.memory_bytes(), bytes) << applied.status();
-  EXPECT_EQ(mission.can_be_saved(), !state.empty()) << applied.status();
-  EXPECT_TRUE(state.empty() || mission.SaveState().value() == state) << applied.status();
+  EXPECT_EQ(mission.can_be_saved(), can_be_saved) << applied.status();
+  EXPECT_TRUE(!saves || mission.SaveState().value() == state) << applied.status();
   return applied;
 }
 
