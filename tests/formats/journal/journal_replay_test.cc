@@ -48,6 +48,10 @@ absl::StatusOr<EventBody> OverWire(const RobotRegistered& registered) {
   return received;
 }
 absl::StatusOr<EventBody> OverWire(const PlanIssued& issued) {
+  // Nobody who could send it has such a plan.
+  if (issued.plan.chosen >= static_cast<int>(issued.plan.candidates.size())) {
+    return absl::InvalidArgumentError("chosen");
+  }
   auto plan = FromProto(ToProto(issued.plan, "mission"), "plan");
   if (!plan.ok()) return plan.status();
   return PlanIssued{*std::move(plan), issued.assigned};
