@@ -59,6 +59,10 @@ class WayHistory {
   void DropQuarantined(const RobotId& robot);
   bool HasQuarantined(const RobotId& robot) const;
 
+  struct Corrected {
+    bool covers_doubt = false;  // what is in doubt now came out of quarantine
+    double moved_m = 0.0;       // by which a pose was moved at most; a radian counts as 3 m
+  };
   // The anchors, in frame map, move the robot's way up to `time_ns`. What is in quarantine comes
   // out of it if the last anchor is not before it; entries from the number `doubtful_from` on,
   // which are in doubt now, apart from those of earlier doubts.
@@ -66,10 +70,6 @@ class WayHistory {
   // Errors, with nothing changed: kFailedPrecondition if nothing is kept, HISTORY_TRIMMED if an
   // anchor is of a time that was merged; kInvalidArgument for times of which nothing was heard, and
   // for ways that would lead beyond the limit of poses. Cost: O(entries of the robot * log).
-  struct Corrected {
-    bool covers_doubt = false;  // what is in doubt now came out of quarantine
-    double moved_m = 0.0;       // by which a pose was moved at most; a radian counts as 3 m
-  };
   absl::StatusOr<Corrected> Correct(const RobotId& robot, std::int64_t time_ns,
                                     const std::vector<PoseAnchor>& anchors,
                                     std::int64_t doubtful_from = 0, WayPoint* start = nullptr);
