@@ -37,7 +37,8 @@ async function step(name, task) {
     await task();
   } catch (error) {
     await page.screenshot({ path: join(OUT, 'failed.png') }).catch(() => {});
-    throw new Error(`${name}: ${error.message}`, { cause: error });
+    const said = await page.locator('main').innerText({ timeout: 5000 }).catch(() => '');
+    throw new Error(`${name}: ${error.message}\nThe page said:\n${said}`, { cause: error });
   }
   ++steps;
   console.log(`ok  ${name} (${Date.now() - began} ms)`);
@@ -201,7 +202,11 @@ async function reasons() {
       const box = page.locator('.scroll', { has: page.locator('.candidates') });
       const [inner, outer] = await box.evaluate((element) => [element.scrollWidth, element.clientWidth]);
       assert.ok(inner <= outer, `${inner} of ${outer} pixels at ${width}`);
-      const heights = await page.locator('tr.pick').evaluateAll((rows) => rows.map((row) => row.offsetHeight));
+      let heights = [];
+      await until('rows that no new plan has just replaced', async () => {
+        heights = await page.locator('tr.pick').evaluateAll((rows) => rows.map((row) => row.offsetHeight));
+        return heights.length > 0 && heights.every((height) => height > 0);
+      });
       assert.ok(Math.max(...heights) < 1.5 * Math.min(...heights), `rows of ${heights} pixels at ${width}`);
       await picture(`why_${width}`);
     }

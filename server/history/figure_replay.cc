@@ -18,6 +18,9 @@ namespace {
 constexpr std::int64_t kFigures = 200;
 // For fewer new events the journal is not replayed again.
 constexpr std::int64_t kMinNewEvents = 100;
+// Nor within so much time, or within as much as it took the last time: where events come faster
+// than they are replayed, who asks until there is no more would ask for ever.
+constexpr absl::Duration kShortestRest = absl::Seconds(5);
 // A task ends after so much: others wait for the pool's thread.
 constexpr absl::Duration kLongestStep = absl::Milliseconds(100);
 
@@ -36,6 +39,7 @@ absl::StatusOr<v1::GetMissionFiguresResponse> FigureReplay::Ask(const PoolTurn& 
   if (!running_ && IsBehind(head)) {
     PLUMESCOUT_RETURN_IF_ERROR(Queue(turn));
     running_ = true;
+    began_ = clock_();
   }
   v1::GetMissionFiguresResponse response;
   response.mutable_figures()->Assign(figures_.begin(), figures_.end());
@@ -44,7 +48,8 @@ absl::StatusOr<v1::GetMissionFiguresResponse> FigureReplay::Ask(const PoolTurn& 
 }
 
 bool FigureReplay::IsBehind(std::int64_t head) const {
-  return reached_ == 0 ? head > 0 : head - reached_ >= std::max(stride_, kMinNewEvents);
+  if (reached_ == 0) return head > 0;
+  return head - reached_ >= std::max(stride_, kMinNewEvents) && clock_() >= rests_until_;
 }
 
 bool FigureReplay::IsAbandoned() const {
@@ -60,7 +65,10 @@ void FigureReplay::Step(const PoolTurn& turn) {
   if (host == nullptr || IsAbandoned()) return Rest(absl::OkStatus());
   const auto progress = Advance(*host);
   if (!progress.ok()) return Rest(progress.status());
-  if (*progress == Progress::kDone) return Rest(absl::OkStatus());
+  if (*progress == Progress::kDone) {
+    NoteEnd();
+    return Rest(absl::OkStatus());
+  }
   const absl::Status queued = Queue(turn);
   if (!queued.ok()) Rest(queued);
 }
@@ -124,6 +132,12 @@ void FigureReplay::NoteFigures(const MissionId& mission) {
     stride_ *= 2;
   }
   due_ = belief->revision + stride_;
+}
+
+void FigureReplay::NoteEnd() {
+  absl::MutexLock lock(&mutex_);
+  const SteadyTime now = clock_();
+  rests_until_ = std::max(After(now, kShortestRest), now + (now - began_));
 }
 
 void FigureReplay::Rest(const absl::Status& status) {

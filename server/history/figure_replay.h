@@ -55,6 +55,8 @@ class FigureReplay : public std::enable_shared_from_this<FigureReplay> {
   absl::Status Begin(MissionHost& host);
   absl::Status ApplyNext(const JournalRecord& record);
   void NoteFigures(const MissionId& mission) ABSL_LOCKS_EXCLUDED(mutex_);
+  // The journal was replayed to where it ended when that began.
+  void NoteEnd() ABSL_LOCKS_EXCLUDED(mutex_);
   // Lets go of what a mission takes.
   void Rest(const absl::Status& status) ABSL_LOCKS_EXCLUDED(mutex_);
 
@@ -78,6 +80,8 @@ class FigureReplay : public std::enable_shared_from_this<FigureReplay> {
 
   absl::Mutex mutex_;
   bool running_ ABSL_GUARDED_BY(mutex_) = false;
+  SteadyTime began_ ABSL_GUARDED_BY(mutex_);          // to run, the last time
+  SteadyTime rests_until_ ABSL_GUARDED_BY(mutex_);    // after a replay to the end
   absl::Status failure_ ABSL_GUARDED_BY(mutex_);      // of the last attempt, not told yet
   std::int64_t reached_ ABSL_GUARDED_BY(mutex_) = 0;  // the last event that was replayed
   std::int64_t stride_ ABSL_GUARDED_BY(mutex_) = 0;   // events between figures; 0: not chosen

@@ -38,6 +38,24 @@ class FigureReplayTest : public testing::Test {
     }
     return answer;
   }
+  // So many events happen that the journal may be replayed again.
+  void MoveOn() {
+    absl::Notification durable;
+    const auto happen = [](MissionWriter& writer) {
+      for (int i = 0; i < 100; ++i)
+        EXPECT_TRUE(writer.conduct().OrderHome({"r1"}, i % 2 == 0).ok());
+    };
+    ASSERT_TRUE(host_->Post(happen).ok());
+    ASSERT_TRUE(host_
+                    ->Post([&](MissionWriter&) {
+                      host_->WhenDurable([&](const absl::Status& status) {
+                        EXPECT_TRUE(status.ok()) << status;
+                        durable.Notify();
+                      });
+                    })
+                    .ok());
+    durable.WaitForNotification();
+  }
 
   MemoryStore store_{/*is_durable=*/true};
   const PastRun run_ = StoreRun(store_);
@@ -89,6 +107,27 @@ TEST_F(FigureReplayTest, WhoeverComesMeanwhileWaitsForTheSameReplay) {
   go_on.Notify();
   ASSERT_TRUE(AskUntilDone().ok());
   EXPECT_EQ(store_.read_count(), reads + 1);
+}
+
+TEST_F(FigureReplayTest, WhatHappensMeanwhileKeepsNobodyWaiting) {
+  absl::Notification go_on;
+  ASSERT_TRUE(pool_->Submit({}, {[&] { go_on.WaitForNotification(); }}).ok());
+  ASSERT_TRUE(Ask().ok());
+  now_ += std::chrono::seconds(9);  // so long it takes
+  go_on.Notify();
+  ASSERT_TRUE(AskUntilDone().ok());
+  MoveOn();
+  now_ += std::chrono::seconds(8);
+  EXPECT_FALSE(Ask()->more_follow());
+  now_ += std::chrono::seconds(1);
+  EXPECT_TRUE(Ask()->more_follow());
+  const auto answer = AskUntilDone();
+  ASSERT_TRUE(answer.ok()) << answer.status();
+  EXPECT_EQ(answer->figures(answer->figures_size() - 1).revision(), run_.revision() + 100);
+  MoveOn();
+  EXPECT_FALSE(Ask()->more_follow());  // it took no time, and rests all the same
+  now_ += std::chrono::seconds(5);
+  EXPECT_TRUE(Ask()->more_follow());
 }
 
 TEST_F(FigureReplayTest, NobodyWhoAsksStopsIt) {
