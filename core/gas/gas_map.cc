@@ -323,7 +323,7 @@ void GasMap::Publish() const {
     double variance = engine_->variance_ppm2(index);
     if (has_offsets) deviation += beside.mean_ppm[index];
     if (!beside.variance_ppm2.empty()) variance += beside.variance_ppm2[index];
-    const double told = discount.Of(deviation, variance);
+    const double told = discount.Of(deviation, prior_scale_.theta * variance);
     most_told_ppm_ = std::max(most_told_ppm_, std::abs(told));
     const GasEstimate gas =
         OffScale(options_, told, noise_.VarianceOf_ppm2(options_, variance, told, deviation));

@@ -16,11 +16,13 @@ struct Evidence {
   double precision = 0.0;           // sum of lambda_k, ppm^-2
   double weighted_deviation = 0.0;  // sum of lambda_k (z_k - m_0), ppm^-1
   double weighted_square = 0.0;     // sum of lambda_k (z_k - m_0)^2
+  double count = 0.0;               // of k
 
   Evidence& operator+=(const Evidence& other) {
     precision += other.precision;
     weighted_deviation += other.weighted_deviation;
     weighted_square += other.weighted_square;
+    count += other.count;
     return *this;
   }
 };

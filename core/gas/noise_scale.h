@@ -19,6 +19,9 @@ struct FieldFit {
   // How many readings there are, however precise each is said to be; where they age, those that are
   // less precise than the mission's count for as much less.
   double readings = 0.0;
+  // How many data they are: of a reading along the way (WayReadings) each cell that it passed has
+  // one.
+  double data = 0.0;
   // `energy` with the part of each cell over LevelScale of its deviation.
   double level_energy = 0.0;
 };

@@ -49,7 +49,7 @@ Normal NormalOf(const FieldEngine& field, std::span<const OffsetColumn> columns,
     normal.matrix.At(k, k) = columns[k].prior_precision_per_ppm2;
     for (const SensorEvidence& e : columns[k].cells) {
       if (!IsActive(field, e.cell)) continue;
-      const auto& [precision, weighted_deviation, weighted_square] = e.evidence;
+      const auto& [precision, weighted_deviation, weighted_square, count] = e.evidence;
       normal.matrix.At(k, k) += precision;
       normal.right_side[k] += weighted_deviation - precision * field.mean_ppm(e.cell);
       for (std::size_t j = 0; j <= k; ++j) normal.matrix.At(k, j) -= precision * reach[j][e.cell];

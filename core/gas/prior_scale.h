@@ -22,21 +22,29 @@ namespace plumescout {
 // over its prior, an inverse gamma one with a = 2 and b = 1, and up to what theta does not change,
 //   ln p(z | theta) = N / 2 ln theta - ln |H| / 2 - (2 + n / 2) ln(1 + E / 2),
 // where E = z^T C^-1 z is the least of sum lambda_k (z_k - m)^2 + theta m^T Q m over all fields m
-// (N cells, n readings). Of such a minimum only what theta stands before changes with it:
+// (N cells, n data). Of such a minimum only what theta stands before changes with it:
 //   d E / d ln theta = theta m^T Q m =: P,
 //   d ln |H| / d ln theta = tr(H^-1 theta Q) = N - tr(H^-1 Lambda) = N - gamma.
 // So the slope by ln theta is gamma / 2 - (4 + n) / (2 + E) P / 2: that of the determinant needs
 // nothing of the inverse but its diagonal where readings are. And P = h^T m - m^T Lambda m.
 //
-// With gamma_i the eigenvalues of H^-1 Lambda the expected curvature, s unknown, is
-// (sum gamma_i^2 - (sum gamma_i)^2 / (4 + n)) / 2.
+// A reading along the way (WayReadings) is told as one datum for each cell that it passed. Those
+// are what gamma counts, so n does, too: for n readings, theta would become as large as may be.
+//
+// With gamma_i the eigenvalues of H^-1 Lambda and r = theta Q m = h - Lambda m the slope falls by
+//   (gamma - sum gamma_i^2) / 2 + (4 + n) / 2 ((P - 2 r^T H^-1 r) / (2 + E) - (P / (2 + E))^2),
+// and is expected to, s unknown, by (sum gamma_i^2 - (sum gamma_i)^2 / (4 + n)) / 2. Steps go by
+// the larger of them: gas is no draw of the field, and what is expected is too little by up to
+// twentyfold, whose steps go to and fro over the best theta.
 //
 // theta itself is a priori log-normal about 1 with kPriorLogStddev, so that few readings hardly
 // move it.
 struct PriorScale {
   double theta = 1.0;
-  double log_stddev = 0.0;    // of ln theta, a posteriori; 0: not learned yet
-  std::int64_t readings = 0;  // in the posterior when it was
+  double log_stddev = 0.0;  // of ln theta, a posteriori; 0: not learned yet
+  // In the posterior when it was; but of a step that was cut short so few that the next comes
+  // after kFirstLesson more.
+  std::int64_t readings = 0;
 };
 
 // Bounds of theta. Beside them it is never above max(1, s): as NoiseScale for lambda_o, so that
@@ -59,10 +67,11 @@ struct PriorFit : FieldFit {
   double prior_energy = 0.0;      // P
   double freedoms = 0.0;          // gamma, that of the cells whose readings count
   double squared_freedoms = 0.0;  // sum gamma_i^2
+  double response = 0.0;          // r^T H^-1 r
 };
 FieldFit FitOf(const FieldEngine& field, const GasLattice& lattice, const GasInputs& inputs,
                const GasOptions& gas);
-// Cost: that of a Solve beside. `squared_freedoms` is estimated: with A = Lambda^1/2 H^-1
+// Cost: that of two Solves beside. `squared_freedoms` is estimated: with A = Lambda^1/2 H^-1
 // Lambda^1/2 it is tr(A^2), the mean of |A v|^2 over vectors v of random signs, of which one is
 // drawn.
 PriorFit PriorFitOf(const FieldEngine& field, const GasLattice& lattice, const GasInputs& inputs,
@@ -70,7 +79,9 @@ PriorFit PriorFitOf(const FieldEngine& field, const GasLattice& lattice, const G
 
 // d ln p(theta | z) / d ln theta.
 double LogSlope(const PriorFit& fit, double theta);
-// One step of Fisher scoring from the theta that `fit` is of, of so many readings.
+// - d LogSlope / d ln theta, or what of that is expected if it is more.
+double LogCurvature(const PriorFit& fit);
+// One step of Newton's method from the theta that `fit` is of, of so many readings.
 PriorScale Improved(const PriorScale& now, const PriorFit& fit, std::int64_t readings);
 
 // s beside theta, never so small that theta / s is above 1.

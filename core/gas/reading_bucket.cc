@@ -71,7 +71,7 @@ Evidence EvidenceOf(const ReadingBucket& bucket, const Ageing& ageing, std::int6
       ageing.Precision(bucket.middle_variance_ppm2(), bucket.newest_ns, time_ns);
   return {SumOfSeries(bucket.count_moments, precision),
           SumOfSeries(bucket.deviation_moments, precision),
-          SumOfSeries(bucket.square_moments, precision)};
+          SumOfSeries(bucket.square_moments, precision), bucket.count_moments[0]};
 }
 
 void MergeAlike(std::int64_t now_ns, const Ageing& ageing, std::vector<ReadingBucket>& buckets) {

@@ -22,11 +22,12 @@ void Visit(auto& archive, ConstOr<ReadingSite> auto& site) {
   archive(cell, neighbour_order);
 }
 void Visit(auto& archive, ConstOr<Evidence> auto& evidence) {
-  auto& [precision, weighted_deviation, weighted_square] = evidence;
+  auto& [precision, weighted_deviation, weighted_square, count] = evidence;
   archive(precision, weighted_deviation);
   // What is published of it is hashed with the field.
   if constexpr (!std::remove_reference_t<decltype(archive)>::kHashes) {
     archive.Since(2, weighted_square);
+    archive.Since(5, count);
   }
 }
 void Visit(auto& archive, ConstOr<Staleness> auto& staleness) {
@@ -87,7 +88,7 @@ inline bool IsEvidence(const Evidence& evidence) {
   constexpr double kMost = 1e100;  // far beyond any sensor, and from where products overflow
   return evidence.precision >= 0.0 && evidence.precision <= kMost &&
          std::abs(evidence.weighted_deviation) <= kMost && evidence.weighted_square >= 0.0 &&
-         evidence.weighted_square <= kMost;
+         evidence.weighted_square <= kMost && evidence.count >= 0.0 && evidence.count <= kMost;
 }
 
 inline bool IsBucket(const ReadingBucket& bucket, const Ageing& ageing) {

@@ -15,7 +15,7 @@ namespace plumescout {
 //   1 + (unread_discount_ratio * v / epsilon_inf)^2,
 // with the cell's variance v and OpenLatticeVariance_ppm2, epsilon_inf, of what nobody has read.
 // Numbers were found in simulated missions (docs/decisions/0035-what-robots-pass-by.md), with
-// fields that are linear and whose precisions are given; of others the field is told as it is.
+// fields that are linear; of others the field is told as it is.
 class UnreadDiscount {
  public:
   // REQUIRES: Validate(gas).ok().
@@ -23,11 +23,11 @@ class UnreadDiscount {
       : per_ppm2_(Holds(gas) ? gas.unread_discount_ratio / Unit_ppm2(gas) : 0.0) {}
 
   static bool Holds(const GasOptions& gas) {
-    return gas.unread_discount_ratio > 0.0 && gas.scale == GasScale::kLinear &&
-           gas.precisions == GasPrecisions::kFixed;
+    return gas.unread_discount_ratio > 0.0 && gas.scale == GasScale::kLinear;
   }
 
-  // What is told of a deviation.
+  // What is told of a deviation. The variance is in the unit in which the prior has the precisions
+  // of the options: times PriorScale::theta where they are learned.
   double Of(double deviation_ppm, double variance_ppm2) const {
     const double unread = per_ppm2_ * variance_ppm2;
     return deviation_ppm / (1.0 + unread * unread);

@@ -124,12 +124,35 @@ TEST(PriorScaleTest, SlopeIsThatOfTheMarginalLikelihood) {
     const PriorFit fit = FitWith(theta, states, readings);
     EXPECT_NEAR(LogSlope(fit, theta), slope + of_prior, 1e-5);
     EXPECT_EQ(fit.readings, 50.0);
+    EXPECT_EQ(fit.data, 50.0);
     const Eigen::MatrixXd shares = dense.Shares(theta);
     EXPECT_NEAR(fit.freedoms, shares.trace(), 1e-8);
     // With signs v of variance 1 that of v^T B v is 2 sum B_ij^2 off the diagonal.
     const Eigen::MatrixXd squares = shares * shares;
     const double off_diagonal = squares.squaredNorm() - squares.diagonal().squaredNorm();
     EXPECT_NEAR(fit.squared_freedoms, squares.trace(), 4.0 * std::sqrt(2.0 * off_diagonal));
+  }
+}
+
+TEST(PriorScaleTest, CurvatureIsThatOfTheMarginalLikelihood) {
+  Rng rng(7);
+  const Grid<CellState> states = testing::RandomStates(13, 11, 0.2, rng);
+  const std::vector<DenseReading> readings = Readings(states, 50, rng);
+  const Dense dense(states, readings);
+  for (const double theta : {0.01, 0.2, 1.0, 8.0}) {
+    SCOPED_TRACE(theta);
+    constexpr double kStep = 1e-2;
+    const double observed =
+        (2.0 * dense.LogLikelihood(theta) - dense.LogLikelihood(theta * std::exp(kStep)) -
+         dense.LogLikelihood(theta * std::exp(-kStep))) /
+        (kStep * kStep);
+    const Eigen::MatrixXd shares = dense.Shares(theta);
+    PriorFit fit = FitWith(theta, states, readings);
+    fit.squared_freedoms = shares.squaredNorm();  // in place of its estimate
+    const double expected =
+        0.5 * (fit.squared_freedoms - fit.freedoms * fit.freedoms / (4.0 + fit.data));
+    const double of_prior = 1.0 / (kPriorLogStddev * kPriorLogStddev);
+    EXPECT_NEAR(LogCurvature(fit), std::max(observed, expected) + of_prior, 1e-3);
   }
 }
 
@@ -209,6 +232,62 @@ TEST(PriorScaleTest, WhereItBeginsIsForgotten) {
     difference += (one[i] - other[i]) * (one[i] - other[i]);
   }
   EXPECT_LT(difference, 0.05 * 0.05 * square);
+}
+
+// Readings along the way are told in parts, each of which is a datum, and less precise.
+TEST(PriorScaleTest, WhereItBeginsIsForgottenAlongTheWay) {
+  constexpr double kTheta = 0.1;
+  constexpr int kParts = 5;
+  Rng rng(29);
+  const Grid<CellState> states = Room(30);
+  const std::vector<DenseReading> parts = Drawn(states, 400, kTheta, 400.0, rng);
+  const double part_variance_ppm2 = kParts / parts.front().precision;
+  for (const double begin : {0.01, 1.0, 5.0}) {
+    SCOPED_TRACE(begin);
+    GasMap map(WithPriorScale(Learning(), {.theta = begin}));
+    int k = 0;
+    for (const DenseReading& part : parts) {
+      map.Add(0, states.geometry().Center(part.cell), {part.concentration_ppm, part_variance_ppm2},
+              k++ % kParts != 0);
+      if (k % 20 != 0 && k != static_cast<int>(parts.size())) continue;
+      ASSERT_TRUE(map.Refresh(states, 0).ok());
+      for (int lesson = 0; lesson < 3; ++lesson) {
+        ASSERT_TRUE(map.BeginEpoch(0).ok());
+        ASSERT_TRUE(map.Adopt().ok());
+      }
+    }
+    const GasQuality quality = map.quality();
+    EXPECT_EQ(map.counters().in_posterior, 80);
+    // What makes data less precise makes the prior weaker and the noise less.
+    const double truth = std::log(kTheta / kParts / begin);
+    const double stddev = quality.prior_precision_log_stddev;
+    EXPECT_NEAR(std::log(quality.prior_precision_scale), truth,
+                3.1 * stddev + std::abs(truth) * stddev * stddev);
+    EXPECT_LT(stddev, 0.5);
+  }
+}
+
+// A step that was cut short is followed by the next before there are half as many readings again.
+TEST(PriorScaleTest, FarFromTheBestTheNextLessonComesSoon) {
+  PriorFit fit;
+  fit.readings = fit.data = 200.0;
+  fit.energy = fit.prior_energy = 20'000.0;
+  fit.freedoms = fit.squared_freedoms = 120.0;
+  const PriorScale far = Improved({}, fit, 200);
+  EXPECT_NEAR(far.theta, std::exp(-kMostLogStep), 1e-12) << LogSlope(fit, 1.0);
+  EXPECT_FALSE(IsLessonDue(far, 218));
+  EXPECT_TRUE(IsLessonDue(far, 220));
+  fit.prior_energy = fit.freedoms / (4.0 + fit.data) * (2.0 + fit.energy);
+  const PriorScale there = Improved({}, fit, 200);
+  EXPECT_EQ(there.theta, 1.0);
+  EXPECT_FALSE(IsLessonDue(there, 299));
+  EXPECT_TRUE(IsLessonDue(there, 300));
+  // Where a bound holds it back more readings do not help.
+  fit.energy = 100.0;
+  fit.prior_energy = 0.0;
+  const PriorScale held = Improved({}, fit, 200);
+  EXPECT_EQ(held.theta, 1.0);
+  EXPECT_FALSE(IsLessonDue(held, 299));
 }
 
 // Readings far from anything that the model draws: no precision leaves its bounds, and nothing is

@@ -185,7 +185,8 @@ Evidence SumByDefinition(const std::vector<RawReading>& readings,
     const double own =
         r.reading.variance_ppm2 > 0.0 ? r.reading.variance_ppm2 : 1.0 / kObservationPrecision;
     const double precision = 1.0 / (own + growth);
-    sum += {precision, precision * (r.reading.concentration_ppm - kMean_ppm)};
+    const double deviation_ppm = r.reading.concentration_ppm - kMean_ppm;
+    sum += {precision, precision * deviation_ppm, precision * deviation_ppm * deviation_ppm, 1.0};
   }
   return sum;
 }
@@ -240,6 +241,7 @@ void ExpectEvidence(const std::vector<CellEvidence>& evidence, const ByCell& by_
     // Every reading lies above the background, so this is the sum of their magnitudes too.
     ASSERT_NEAR(e.evidence.weighted_deviation, sum.weighted_deviation,
                 tolerance * sum.weighted_deviation);
+    ASSERT_EQ(e.evidence.count, sum.count);
     ++expected;
   }
 }

@@ -61,14 +61,11 @@ TEST(UnreadDiscountTest, HasAUnitWhateverThePrecisions) {
   }
 }
 
-TEST(UnreadDiscountTest, IsOfLinearFieldsWithGivenPrecisions) {
+TEST(UnreadDiscountTest, IsOfLinearFields) {
   EXPECT_TRUE(UnreadDiscount::Holds(GasOptions{}));
   EXPECT_FALSE(UnreadDiscount::Holds(PublishedGasOptions()));
   GasOptions gas;
   gas.scale = GasScale::kSquareRoot;
-  EXPECT_EQ(UnreadDiscount(gas).Of(8.0, 1.0), 8.0);
-  gas = {};
-  gas.precisions = GasPrecisions::kLearned;
   EXPECT_EQ(UnreadDiscount(gas).Of(8.0, 1.0), 8.0);
 }
 
@@ -97,6 +94,29 @@ TEST(UnreadDiscountTest, MapsTellWhatItLeavesOfTheField) {
   };
   EXPECT_GT(left({1, 1}), 0.99) << "where it was read";
   EXPECT_LT(left({20, 1}), 0.8) << "1.9 m away";
+}
+
+// In units of the prior, whatever that has become.
+TEST(UnreadDiscountTest, FollowsLearnedPrecisions) {
+  const Grid<CellState> states({0.0, 0.0, 0.1, 40, 3}, CellState::kFree);
+  GasOptions gas;
+  gas.precisions = GasPrecisions::kLearned;
+  GasOptions whole = gas;
+  whole.unread_discount_ratio = 0.0;
+  GasMap map(gas);
+  GasMap field(whole);
+  for (GasMap* each : {&map, &field}) {
+    for (int k = 0; k < 40; ++k) each->Add(0, {0.05 + 0.1 * (k % 20), 0.15}, {k % 2 * 50.0});
+    ASSERT_TRUE(each->Refresh(states, 0).ok());
+    ASSERT_TRUE(each->BeginEpoch(0).ok());
+    ASSERT_TRUE(each->Adopt().ok());
+  }
+  ASSERT_LT(map.quality().prior_precision_scale, 0.5);
+  const UnreadDiscount discount(gas);
+  for (std::size_t i = 0; i < states.size(); ++i) {
+    const double told_ppm = discount.Of(field.mean_ppm()[i], field.variance_ppm2()[i]);
+    EXPECT_NEAR(map.mean_ppm()[i], told_ppm, 1e-4 * (1.0 + std::abs(told_ppm)));
+  }
 }
 
 }  // namespace unread_discount_test
