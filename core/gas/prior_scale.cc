@@ -10,35 +10,9 @@
 
 #include "core/gas/ageing.h"
 #include "core/gas/coarse_prior.h"
-#include "core/types/rng.h"
 
 namespace plumescout {
 namespace {
-
-// The same signs for the same cells, so that the same events give the same bytes.
-std::vector<double> RandomSigns(std::size_t count) {
-  constexpr std::uint64_t kSeed = 1;
-  Rng rng(kSeed);
-  std::vector<double> signs(count);
-  for (double& sign : signs) sign = (rng.Next() >> 63) == 0 ? 1.0 : -1.0;
-  return signs;
-}
-
-double SquaredFreedoms(const FieldEngine& field) {
-  std::vector<double> right_side = RandomSigns(field.cells());
-  std::vector<double> precisions(field.cells());
-  for (std::size_t i = 0; i < right_side.size(); ++i) {
-    const CellInput input = field.input(i);
-    precisions[i] = input.active ? input.precision : 0.0;
-    right_side[i] *= std::sqrt(precisions[i]);
-  }
-  const std::vector<double> solution = field.Solve(right_side);
-  double sum = 0.0;
-  for (std::size_t i = 0; i < solution.size(); ++i) {
-    if (precisions[i] > 0.0) sum += precisions[i] * solution[i] * solution[i];
-  }
-  return sum;
-}
 
 // r^T H^-1 r.
 double EnergyOf(const FieldEngine& field, const std::vector<double>& r) {
@@ -81,9 +55,10 @@ PriorFit PriorFitOf(const FieldEngine& field, const GasLattice& lattice, const G
     const double mean = field.mean_ppm(i);
     rest[i] = input.weighted_deviation - input.precision * mean;
     fit.prior_energy += mean * rest[i];
-    fit.freedoms += input.precision * field.variance_ppm2(i);
+    const double freedom = input.precision * field.variance_ppm2(i);
+    fit.freedoms += freedom;
+    fit.squared_freedoms += freedom * freedom;
   }
-  fit.squared_freedoms = SquaredFreedoms(field);
   fit.response = EnergyOf(field, rest);
   return fit;
 }

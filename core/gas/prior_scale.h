@@ -31,11 +31,13 @@ namespace plumescout {
 // A reading along the way (WayReadings) is told as one datum for each cell that it passed. Those
 // are what gamma counts, so n does, too: for n readings, theta would become as large as may be.
 //
-// With gamma_i the eigenvalues of H^-1 Lambda and r = theta Q m = h - Lambda m the slope falls by
-//   (gamma - sum gamma_i^2) / 2 + (4 + n) / 2 ((P - 2 r^T H^-1 r) / (2 + E) - (P / (2 + E))^2),
-// and is expected to, s unknown, by (sum gamma_i^2 - (sum gamma_i)^2 / (4 + n)) / 2. Steps go by
-// the larger of them: gas is no draw of the field, and what is expected is too little by up to
-// twentyfold, whose steps go to and fro over the best theta.
+// With A = Lambda^1/2 H^-1 Lambda^1/2, whose trace is gamma, and r = theta Q m = h - Lambda m the
+// slope falls by
+//   (gamma - tr(A^2)) / 2 + (4 + n) / 2 ((P - 2 r^T H^-1 r) / (2 + E) - (P / (2 + E))^2),
+// and is expected to, s unknown, by (tr(A^2) - gamma^2 / (4 + n)) / 2. Steps go by the larger of
+// them: gas is no draw of the field, and what is expected is too little by up to twentyfold, whose
+// steps go to and fro over the best theta. In place of tr(A^2) stands the sum of the squares on the
+// diagonal of A, which is not above it: that costs nothing, and steps become no longer.
 //
 // theta itself is a priori log-normal about 1 with kPriorLogStddev, so that few readings hardly
 // move it.
@@ -66,14 +68,12 @@ inline bool IsLessonDue(const PriorScale& last, std::int64_t readings) {
 struct PriorFit : FieldFit {
   double prior_energy = 0.0;      // P
   double freedoms = 0.0;          // gamma, that of the cells whose readings count
-  double squared_freedoms = 0.0;  // sum gamma_i^2
+  double squared_freedoms = 0.0;  // sum A_ii^2
   double response = 0.0;          // r^T H^-1 r
 };
 FieldFit FitOf(const FieldEngine& field, const GasLattice& lattice, const GasInputs& inputs,
                const GasOptions& gas);
-// Cost: that of two Solves beside. `squared_freedoms` is estimated: with A = Lambda^1/2 H^-1
-// Lambda^1/2 it is tr(A^2), the mean of |A v|^2 over vectors v of random signs, of which one is
-// drawn.
+// Cost: that of a Solve beside.
 PriorFit PriorFitOf(const FieldEngine& field, const GasLattice& lattice, const GasInputs& inputs,
                     const GasOptions& gas);
 
