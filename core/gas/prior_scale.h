@@ -35,7 +35,7 @@ namespace plumescout {
 // slope falls by
 //   (gamma - tr(A^2)) / 2 + (4 + n) / 2 ((P - 2 r^T H^-1 r) / (2 + E) - (P / (2 + E))^2),
 // and is expected to, s unknown, by (tr(A^2) - gamma^2 / (4 + n)) / 2. Steps go by the larger of
-// them: gas is no draw of the field, and what is expected is too little by up to twentyfold, whose
+// them: gas is no draw of the field, and what is expected is too little by 4 to 50 times, whose
 // steps go to and fro over the best theta. In place of tr(A^2) stands the sum of the squares on the
 // diagonal of A, which is not above it: that costs nothing, and steps become no longer.
 //

@@ -42,8 +42,9 @@ class FigureReplayTest : public testing::Test {
   void MoveOn() {
     absl::Notification durable;
     const auto happen = [](MissionWriter& writer) {
-      for (int i = 0; i < 100; ++i)
+      for (int i = 0; i < 100; ++i) {
         EXPECT_TRUE(writer.conduct().OrderHome({"r1"}, i % 2 == 0).ok());
+      }
     };
     ASSERT_TRUE(host_->Post(happen).ok());
     ASSERT_TRUE(host_
