@@ -225,7 +225,7 @@ TEST(PriorScaleTest, WhereItBeginsIsForgottenAlongTheWay) {
   constexpr double kTheta = 0.1;
   constexpr int kParts = 5;
   Rng rng(29);
-  const Grid<CellState> states = Room(30);
+  const Grid<CellState> states = Room(20);
   const std::vector<DenseReading> parts = Drawn(states, 400, kTheta, 400.0, rng);
   const double part_variance_ppm2 = kParts / parts.front().precision;
   for (const double begin : {0.01, 1.0, 5.0}) {
